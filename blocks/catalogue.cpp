@@ -1,0 +1,37 @@
+// The blocks, one line each, in the order of the reference: BLOCK(family, Class). The class is defined in
+// blocks/<family>/<class in lower case>.h; the build reads these lines to compile each family.
+#define FLYBALL_CATALOGUE(BLOCK)       \
+  BLOCK(sources, Constant)             \
+  BLOCK(sources, Step)                 \
+  BLOCK(math, Gain)                    \
+  BLOCK(math, Sum)                     \
+  BLOCK(continuous, Integrator)        \
+  BLOCK(discrete, UnitDelay)           \
+  BLOCK(nonlinear, Saturation)         \
+  BLOCK(hybrid, BouncingBall)
+
+#include "blocks/registry.h"
+
+namespace flyball {
+
+#define FLYBALL_DECLARE(family, Class) \
+  struct Class;                        \
+  template <>                          \
+  BlockType block_type<Class>();
+FLYBALL_CATALOGUE(FLYBALL_DECLARE)
+#undef FLYBALL_DECLARE
+
+const std::vector<BlockType>& catalogue() {
+  // Types are complete before anyone sees them; constructing each default checks its declarations.
+  static const std::vector<BlockType> types = [] {
+    std::vector<BlockType> all;
+#define FLYBALL_ADD(family, Class) all.push_back(block_type<Class>());
+    FLYBALL_CATALOGUE(FLYBALL_ADD)
+#undef FLYBALL_ADD
+    for (const BlockType& type : all) type.create();
+    return all;
+  }();
+  return types;
+}
+
+}  // namespace flyball

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "blocks/block.h"
+#include "blocks/kernels.h"
+#include "blocks/shim.h"
+
+namespace flyball {
+
+struct BlockType;
+
+/// A constructed block: type and structure. Immutable; all instances of equal structure share one.
+struct BlockObject {
+  const BlockType* type = nullptr;
+  std::shared_ptr<const void> self;             // the block itself, for its kernels
+  const Specification* specification = nullptr; // lives in `self`
+  /// What each output, relation, crossing and alarm (by slot), and the rate of each state, reads: slots of this
+  /// block, ascending. Found by running the equations on Dependency.
+  std::vector<std::vector<int>> reads;
+  std::vector<std::vector<int>> rate_reads;
+};
+
+/// One line of the catalogue.
+struct BlockType {
+  std::string name;
+  std::string family;
+  std::string summary;
+  bool differentiable = true;
+  KernelTable kernels;
+  std::shared_ptr<const Block> (*construct)(Settings* settings) = nullptr;
+  const void* (*self)(const Block& block) = nullptr;  // the address that kernels expect
+
+  /// Constructs from settings (nullptr: defaults) and derives what reads what. Throws std::logic_error when
+  /// declarations and methods of the block do not agree: a mistake in the block, not in a model.
+  BlockObject create(Settings* settings = nullptr) const;
+};
+
+/// All block types, in the order of the catalogue. Throws std::logic_error as `create` does.
+const std::vector<BlockType>& catalogue();
+
+/// nullptr when there is none of this name.
+const BlockType* find_block_type(std::string_view name);
+
+/// Describes a block type; `family` is its folder.
+template <class B>
+BlockType describe(std::string name, std::string family) {
+  BlockType type;
+  type.name = std::move(name);
+  type.family = std::move(family);
+  type.summary = B::summary;
+  type.differentiable = kernel::differentiable<B>();
+  type.kernels.on_double = kernel::compile<B, double>();
+  if constexpr (kernel::differentiable<B>()) {
+    type.kernels.on_jet = kernel::compile<B, Jet>();
+    type.kernels.on_dependency = kernel::compile<B, Dependency>();
+  } else {
+    type.kernels.on_jet = kernel::compile_shim<B>();
+  }
+  type.construct = [](Settings* settings) -> std::shared_ptr<const Block> {
+    std::shared_ptr<B> block;
+    if constexpr (std::is_aggregate_v<B>) {
+      block.reset(new B{Block(settings)});
+    } else {
+      block = std::make_shared<B>(settings);
+    }
+    block->seal();
+    return block;
+  };
+  type.self = [](const Block& block) -> const void* { return static_cast<const B*>(&block); };
+  return type;
+}
+
+/// Defined once for each block, in the translation unit of its family.
+template <class B>
+BlockType block_type();
+
+}  // namespace flyball

@@ -1,0 +1,163 @@
+// The declarations that read the block's text: structure, which fixes the shape of a block.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "blocks/block.h"
+
+namespace flyball {
+
+bool Block::given(const std::string& key) const { return settings_ != nullptr && settings_->given(key); }
+
+void Block::refuse(const std::string& key, std::string message) {
+  if (settings_ != nullptr) settings_->refuse(key, std::move(message));
+}
+
+std::string Block::text(const std::string& key, const std::string& fallback, std::string doc) {
+  spec_.structure.push_back({key, fmt::format("\"{}\"", fallback), std::move(doc), {}});
+  return settings_ == nullptr ? fallback : settings_->text(key).value_or(fallback);
+}
+
+std::string Block::choice(const std::string& key, const std::string& fallback, std::vector<std::string> choices,
+                          std::string doc) {
+  const std::string chosen = text(key, fallback, std::move(doc));
+  spec_.structure.back().choices = choices;
+  if (std::ranges::find(choices, chosen) != choices.end()) return chosen;
+  refuse(key, fmt::format("expected \"{}\", found \"{}\"", fmt::join(choices, "\", \""), chosen));
+  return fallback;
+}
+
+int Block::count(const std::string& key, int fallback, int least, int most, std::string doc) {
+  spec_.structure.push_back({key, std::to_string(fallback), std::move(doc), {}});
+  if (settings_ == nullptr) return fallback;
+  const long n = settings_->integer(key).value_or(fallback);
+  if (n >= least && n <= most) return static_cast<int>(n);
+  refuse(key, fmt::format("expected a whole number from {} to {}, found {}", least, most, n));
+  return fallback;
+}
+
+bool Block::flag(const std::string& key, bool fallback, std::string doc) {
+  spec_.structure.push_back({key, fallback ? "true" : "false", std::move(doc), {}});
+  return settings_ == nullptr ? fallback : settings_->flag(key).value_or(fallback);
+}
+
+std::vector<std::string> Block::list(const std::string& key, const std::vector<std::string>& fallback,
+                                     std::string doc) {
+  spec_.structure.push_back({key, fmt::format("[\"{}\"]", fmt::join(fallback, "\", \"")), std::move(doc), {}});
+  return settings_ == nullptr ? fallback : settings_->list(key).value_or(fallback);
+}
+
+SampleTime Block::sample_time(Rational fallback) {
+  spec_.structure.push_back(
+      {"sample_time", fmt::format("\"{} s\"", fallback.value()), "time between two hits, exact", {}});
+  spec_.structure.push_back({"offset", "\"0 s\"", "time of the first hit, exact", {}});
+  Rational period = fallback;
+  if (settings_ != nullptr) {
+    period = settings_->exact("sample_time").value_or(fallback);
+    spec_.offset = settings_->exact("offset").value_or(Rational(0));
+    if (!settings_->given("sample_time")) {
+      refuse("", "a sampled block needs a sample_time, such as sample_time = \"10 ms\"");
+    }
+  }
+  if (period.numerator() <= 0) {
+    refuse("sample_time", fmt::format("expected a time above 0 s, found {} s", period.value()));
+    period = Rational(1);
+  }
+  if (spec_.offset.numerator() < 0) {
+    refuse("offset", fmt::format("expected a time of at least 0 s, found {} s", spec_.offset.value()));
+    spec_.offset = Rational(0);
+  }
+  spec_.period = period;
+  const Param ts = param("sample_time", period.value(), "s", positive, "time between two hits");
+  spec_.slots[ts.slot].fixed = true;
+  return {ts.slot};
+}
+
+namespace {
+
+Shape shape_of(const std::vector<std::vector<double>>& table) {
+  Shape shape{static_cast<int>(table.size()), table.empty() ? 0 : static_cast<int>(table[0].size()), {}};
+  for (const auto& row : table) {
+    for (const double entry : row) shape.zero.push_back(entry == 0.0);
+  }
+  return shape;
+}
+
+std::vector<double> flat(const std::vector<std::vector<double>>& table) {
+  std::vector<double> result;
+  for (const auto& row : table) result.insert(result.end(), row.begin(), row.end());
+  return result;
+}
+
+std::string written(const std::vector<double>& row) { return fmt::format("[{}]", fmt::join(row, ", ")); }
+
+}  // namespace
+
+Coefficients Block::declare_coefficients(const std::string& key, const Shape& shape,
+                                         const std::vector<double>& fallback, bool one_row, std::string unit,
+                                         std::string doc) {
+  std::vector<Coefficients::Entry> entries;
+  for (int r = 0; r < shape.rows; ++r) {
+    for (int c = 0; c < shape.columns; ++c) {
+      const int at = r * shape.columns + c;
+      if (shape.zero[at]) continue;
+      std::string name = one_row ? fmt::format("{}[{}]", key, c) : fmt::format("{}[{}][{}]", key, r, c);
+      const double value = at < static_cast<int>(fallback.size()) ? fallback[at] : 0.0;
+      const Param p = param(std::move(name), value, unit, any, doc);
+      spec_.slots[p.slot].setting = key;
+      spec_.slots[p.slot].entry = at;
+      entries.push_back({r, c, p});
+    }
+  }
+  return {shape.rows, shape.columns, std::move(entries)};
+}
+
+Coefficients Block::coefficients(const std::string& key, const std::vector<double>& fallback, std::string unit,
+                                 std::string doc) {
+  spec_.structure.push_back({key, written(fallback), doc, {}});
+  Shape shape = shape_of({fallback});
+  if (given(key)) {
+    const auto read = settings_->shape(key);
+    if (read && read->rows == 1) {
+      shape = *read;
+    } else if (read) {
+      refuse(key, "expected a list of numbers, found a list of lists");
+    }
+  }
+  return declare_coefficients(key, shape, fallback, true, std::move(unit), std::move(doc));
+}
+
+Coefficients Block::matrix(const std::string& key, const std::vector<std::vector<double>>& fallback,
+                           std::string doc) {
+  std::vector<std::string> rows;
+  for (const auto& row : fallback) rows.push_back(written(row));
+  spec_.structure.push_back({key, fmt::format("[{}]", fmt::join(rows, ", ")), doc, {}});
+  Shape shape = shape_of(fallback);
+  if (given(key)) shape = settings_->shape(key).value_or(shape);
+  return declare_coefficients(key, shape, flat(fallback), false, "any", std::move(doc));
+}
+
+namespace {
+
+/// The formula that is its first input.
+std::shared_ptr<const Formula> identity(const std::string& input) {
+  auto formula = std::make_shared<Formula>();
+  formula->text = input;
+  formula->operands = {input};
+  Formula::Node node;
+  node.op = Formula::Op::operand;
+  formula->nodes.push_back(node);
+  return formula;
+}
+
+}  // namespace
+
+std::shared_ptr<const Formula> Block::formula(const std::string& key, const std::string& fallback_input,
+                                              const std::vector<std::string>& inputs, std::string doc) {
+  spec_.structure.push_back({key, fmt::format("\"{}\"", fallback_input), std::move(doc), {}});
+  std::shared_ptr<const Formula> read;
+  if (given(key)) read = settings_->formula(key, inputs);
+  return read != nullptr ? read : identity(fallback_input);
+}
+
+}  // namespace flyball
