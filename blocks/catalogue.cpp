@@ -1,5 +1,5 @@
-// The blocks, one line each, in the order of the reference: BLOCK(family, Class). The class is defined in
-// blocks/<family>/<class in lower case>.h; the build reads these lines to compile each family.
+// The blocks, one line each, in the order of the reference: the family, which is the folder, and the class. The
+// file is named after the class (UnitDelay: unit_delay.h); the build reads these lines to compile each family.
 #define FLYBALL_CATALOGUE(BLOCK)       \
   BLOCK(sources, Constant)             \
   BLOCK(sources, Step)                 \
