@@ -178,6 +178,18 @@ States Block::states(const std::string& stem, int n, std::string unit, std::stri
   return {first, n};
 }
 
+StateLimits Block::limits(State x, Param lower, Param upper) {
+  const bool low = lower.declared(), high = upper.declared();
+  return {x,
+          lower,
+          upper,
+          relation_if(low, "at_lower", "the state is at its lower limit"),
+          relation_if(high, "at_upper", "the state is at its upper limit"),
+          relation_if(low || high, "growing", "the state grows where no limit holds it"),
+          crossing_if(low, "meets_lower", Direction::falling, "the state meets its lower limit"),
+          crossing_if(high, "meets_upper", Direction::rising, "the state meets its upper limit")};
+}
+
 Held Block::held(std::string name, double initial, std::string unit, std::string doc) {
   return {state_slot(SlotKind::held, std::move(name), initial, -1, std::move(unit), std::move(doc))};
 }

@@ -8,6 +8,7 @@
 #include "blocks/handles.h"
 #include "blocks/settings.h"
 #include "blocks/specification.h"
+#include "blocks/state_limits.h"
 #include "blocks/view.h"
 
 namespace flyball {
@@ -22,9 +23,9 @@ namespace flyball {
 ///     void outputs(auto& v) const { v[y] = v[gain] * v[u]; }
 ///   };
 ///
-/// Each declaration takes a slot and records its specification; names, units, ranges and texts are said nowhere
-/// else. An object is immutable and shared by all instances of equal structure. docs/guide/first-block.md shows
-/// each kind of declaration with the method that belongs to it.
+/// Each declaration takes a slot and records its specification; names, units, ranges and texts are said
+/// nowhere else. An object is immutable and shared by all instances of equal structure.
+/// docs/guide/first-block.md shows each kind of declaration with the method that belongs to it.
 class Block {
  public:
   explicit Block(Settings* settings);
@@ -64,6 +65,8 @@ class Block {
   State state(std::string name, double initial, std::string unit, std::string doc);
   State state(std::string name, Param initial, std::string unit, std::string doc);
   States states(const std::string& stem, int n, std::string unit, std::string doc);
+  /// Keeps `x` between the limits that are declared; see StateLimits for the equations that belong to it.
+  StateLimits limits(State x, Param lower, Param upper);
   Held held(std::string name, double initial, std::string unit, std::string doc);
   Held held(std::string name, Param initial, std::string unit, std::string doc);
 
@@ -79,7 +82,8 @@ class Block {
   SampleTime sample_time(Rational fallback = Rational(1));
 
   // Declared only where the structure asks for it; the handle is else `declared() == false`.
-  Param param_if(bool wanted, std::string name, double fallback, std::string unit, Range range, std::string doc);
+  Param param_if(bool wanted, std::string name, double fallback, std::string unit, Range range,
+                 std::string doc);
   Input input_if(bool wanted, std::string name, std::string unit, std::string doc);
   State state_if(bool wanted, std::string name, double initial, std::string unit, std::string doc);
   Relation relation_if(bool wanted, std::string name, std::string doc);
@@ -105,6 +109,9 @@ class Block {
   std::string text(const std::string& key, const std::string& fallback, std::string doc);
   std::string choice(const std::string& key, const std::string& fallback, std::vector<std::string> choices,
                      std::string doc);
+  /// The same as the position in `choices`, for a switch in an equation.
+  int option(const std::string& key, const std::string& fallback, std::vector<std::string> choices,
+             std::string doc);
   int count(const std::string& key, int fallback, int least, int most, std::string doc);
   bool flag(const std::string& key, bool fallback, std::string doc);
   std::vector<std::string> list(const std::string& key, const std::vector<std::string>& fallback,

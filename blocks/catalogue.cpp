@@ -1,14 +1,33 @@
-// The blocks, one line each, in the order of the reference: the family, which is the folder, and the class. The
-// file is named after the class (UnitDelay: unit_delay.h); the build reads these lines to compile each family.
-#define FLYBALL_CATALOGUE(BLOCK)       \
-  BLOCK(sources, Constant)             \
-  BLOCK(sources, Step)                 \
-  BLOCK(math, Gain)                    \
-  BLOCK(math, Sum)                     \
-  BLOCK(continuous, Integrator)        \
-  BLOCK(discrete, UnitDelay)           \
-  BLOCK(nonlinear, Saturation)         \
-  BLOCK(hybrid, BouncingBall)
+// The blocks, one line each, in the order of the reference: the family, which is the folder, and the class.
+// The file is named after the class (UnitDelay: unit_delay.h); the build reads these lines to compile each
+// family.
+#define FLYBALL_CATALOGUE(BLOCK)     \
+  BLOCK(sources, Constant)           \
+  BLOCK(sources, Step)               \
+  BLOCK(sources, SineWave)           \
+  BLOCK(sources, PulseGenerator)     \
+  BLOCK(sources, Clock)              \
+  BLOCK(math, Gain)                  \
+  BLOCK(math, Sum)                   \
+  BLOCK(math, Product)               \
+  BLOCK(math, Abs)                   \
+  BLOCK(math, TrigonometricFunction) \
+  BLOCK(math, Expression)            \
+  BLOCK(continuous, Integrator)      \
+  BLOCK(continuous, TransferFcn)     \
+  BLOCK(continuous, StateSpace)      \
+  BLOCK(discrete, UnitDelay)         \
+  BLOCK(discrete, ZeroOrderHold)     \
+  BLOCK(nonlinear, Saturation)       \
+  BLOCK(nonlinear, DeadZone)         \
+  BLOCK(nonlinear, Relay)            \
+  BLOCK(routing, Switch)             \
+  BLOCK(routing, Mux)                \
+  BLOCK(routing, Demux)              \
+  BLOCK(control, PID)                \
+  BLOCK(control, DiscretePID)        \
+  BLOCK(hybrid, BouncingBall)        \
+  BLOCK(robot, DifferentialDrive)
 
 #include "blocks/registry.h"
 

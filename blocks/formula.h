@@ -33,6 +33,7 @@ struct Formula {
     double value = 0.0;                   // literal, SI
     std::optional<Rational> exact;        // literal as an exact fraction, where its text and unit allow
     std::optional<Dimension> dimension;   // literal that was written with a unit
+    bool hertz = false;                   // literal that counts cycles a second, not radians
     std::array<int, 3> argument{-1, -1, -1};  // nodes
   };
 

@@ -1,13 +1,15 @@
 #pragma once
 
+#include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace flyball {
 
-/// A declared name: which slot of its block it is. The kinds are types of their own, so that a view can tell at
-/// compile time what may be read and written where.
+/// A declared name: which slot of its block it is. The kinds are types of their own, so that a view can tell
+/// at compile time what may be read and written where.
 template <int kind>
 struct Handle {
   int slot = -1;
@@ -62,17 +64,26 @@ class Coefficients {
 
   Coefficients() = default;
   Coefficients(int rows, int columns, std::vector<Entry> entries)
-      : rows_(rows), columns_(columns), entries_(std::move(entries)) {}
+      : rows_(rows), columns_(columns), entries_(std::move(entries)), starts_(rows + 1) {
+    for (const Entry& e : entries_) ++starts_[e.row + 1];
+    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  }
 
   int rows() const { return rows_; }
   int columns() const { return columns_; }
   /// The entries that are present, in row-major order.
   const std::vector<Entry>& entries() const { return entries_; }
+  /// The entries of row r; none past the last row.
+  std::span<const Entry> row(int r) const {
+    if (r >= rows_) return {};
+    return {entries_.data() + starts_[r], entries_.data() + starts_[r + 1]};
+  }
 
  private:
   int rows_ = 0;
   int columns_ = 0;
   std::vector<Entry> entries_;
+  std::vector<int> starts_{0};  // of each row in `entries_`, and the end
 };
 
 /// The sample time of a sampled block, s. Structure: equations may read it, nothing may change it.

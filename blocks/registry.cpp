@@ -29,17 +29,21 @@ void check_methods(const BlockType& type, const Specification& spec) {
   pair(SlotKind::alarm, "Alarm", has.on_time != nullptr, "on_time(auto& v) const");
   const bool computed = std::ranges::any_of(spec.slots, [&](const SlotSpec& slot) {
     const auto at = static_cast<int>(&slot - spec.slots.data());
-    return (slot.kind == SlotKind::output && std::ranges::find(spec.passed, at, &PassThrough::output) == spec.passed.end()) ||
+    return (slot.kind == SlotKind::output &&
+            std::ranges::find(spec.passed, at, &PassThrough::output) == spec.passed.end()) ||
            slot.kind == SlotKind::object_output;
   });
   if (computed && has.outputs == nullptr) {
-    throw std::logic_error(fmt::format("block {}: declares Output but has no method outputs(auto& v) const", type.name));
+    throw std::logic_error(
+        fmt::format("block {}: declares Output but has no method outputs(auto& v) const", type.name));
   }
   if (!computed && has.outputs != nullptr) {
-    throw std::logic_error(fmt::format("block {}: has a method outputs but declares no Output of its own", type.name));
+    throw std::logic_error(
+        fmt::format("block {}: has a method outputs but declares no Output of its own", type.name));
   }
   if (has.on_sample != nullptr && !spec.sampled()) {
-    throw std::logic_error(fmt::format("block {}: has a method on_sample but declares no SampleTime", type.name));
+    throw std::logic_error(
+        fmt::format("block {}: has a method on_sample but declares no SampleTime", type.name));
   }
   if (spec.count(SlotKind::alarm) > 1) {
     throw std::logic_error(fmt::format("block {}: declares more than one Alarm", type.name));
@@ -58,9 +62,10 @@ void check_declarations(const BlockType& type, const Specification& spec) {
       }
     }
   }
-  if (!type.differentiable && (!spec.sampled() || spec.has(SlotKind::state) || spec.has(SlotKind::relation))) {
-    throw std::logic_error(
-        fmt::format("block {}: a block on double alone must be sampled, without State and Relation", type.name));
+  if (!type.differentiable &&
+      (!spec.sampled() || spec.has(SlotKind::state) || spec.has(SlotKind::relation))) {
+    throw std::logic_error(fmt::format(
+        "block {}: a block on double alone must be sampled, without State and Relation", type.name));
   }
 }
 
@@ -109,8 +114,7 @@ class Deriver {
       if (!is_result(s, kind)) continue;
       reads[s] = written[s].slots();
       if (!reads[s].empty() && reads[s].back() == size_) {
-        throw std::logic_error(
-            fmt::format("block {}: {} is never written", type_.name, spec_.slots[s].name));
+        throw std::logic_error(fmt::format("block {}: {} is never written", type_.name, spec_.slots[s].name));
       }
     }
   }
@@ -129,7 +133,8 @@ class Deriver {
   Frame<Dependency> frame_;
 };
 
-/// A block on double alone cannot be run on Dependency: each output is taken to read every input and held value.
+/// A block on double alone cannot be run on Dependency: each output is taken to read every input and held
+/// value.
 void assume_all_inputs(const Specification& spec, BlockObject& object) {
   std::vector<int> all;
   for (int s = 0; s < static_cast<int>(spec.slots.size()); ++s) {
@@ -157,6 +162,10 @@ BlockObject BlockType::create(Settings* settings) const {
   object.self = std::shared_ptr<const void>(block, self(*block));
   check_methods(*this, *object.specification);
   check_declarations(*this, *object.specification);
+  if (object.specification->refused) {
+    if (settings == nullptr) throw std::logic_error(fmt::format("block {}: refuses its own defaults", name));
+    return object;
+  }
   if (differentiable) {
     Deriver(*this, object).run(object);
   } else {

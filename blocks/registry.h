@@ -16,10 +16,10 @@ struct BlockType;
 /// A constructed block: type and structure. Immutable; all instances of equal structure share one.
 struct BlockObject {
   const BlockType* type = nullptr;
-  std::shared_ptr<const void> self;             // the block itself, for its kernels
-  const Specification* specification = nullptr; // lives in `self`
-  /// What each output, relation, crossing and alarm (by slot), and the rate of each state, reads: slots of this
-  /// block, ascending. Found by running the equations on Dependency.
+  std::shared_ptr<const void> self;              // the block itself, for its kernels
+  const Specification* specification = nullptr;  // lives in `self`
+  /// What each output, relation, crossing and alarm (by slot), and the rate of each state, reads: slots of
+  /// this block, ascending. Found by running the equations on Dependency.
   std::vector<std::vector<int>> reads;
   std::vector<std::vector<int>> rate_reads;
 };
@@ -35,7 +35,8 @@ struct BlockType {
   const void* (*self)(const Block& block) = nullptr;  // the address that kernels expect
 
   /// Constructs from settings (nullptr: defaults) and derives what reads what. Throws std::logic_error when
-  /// declarations and methods of the block do not agree: a mistake in the block, not in a model.
+  /// declarations and methods of the block do not agree: a mistake in the block, not in a model. Where the
+  /// block refused its settings, `specification->refused` is set and nothing is derived.
   BlockObject create(Settings* settings = nullptr) const;
 };
 

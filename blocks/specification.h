@@ -33,7 +33,20 @@ inline constexpr Range unit_interval{0.0, 1.0};
 /// Which change of sign fires a crossing.
 enum class Direction { rising, falling, either };
 
-enum class SlotKind { time, param, input, output, state, held, relation, crossing, alarm, object_input, object_output, memory };
+enum class SlotKind {
+  time,
+  param,
+  input,
+  output,
+  state,
+  held,
+  relation,
+  crossing,
+  alarm,
+  object_input,
+  object_output,
+  memory
+};
 
 /// One number of a block: what its declaration said. Slot 0 of every block is time.
 struct SlotSpec {
@@ -41,17 +54,17 @@ struct SlotSpec {
   std::string name;  // a port's element is "port.element"
   std::string unit;  // "any" where the equations decide
   std::string doc;
-  double fallback = 0.0;         // default of a parameter or an optional input, initial value of a state
-  int initial_param = -1;        // slot of the parameter that gives the initial value, instead of `fallback`
-  Range range;                   // of a parameter
-  std::string setting;           // key that gives a parameter's value; `entry` counts in row-major order
-  int entry = -1;                // -1: the key's value is the parameter itself
-  std::string reference;         // parameter of the model that this one is bound to (a formula's free name)
-  bool optional = false;         // an input that may stay unconnected
-  bool fixed = false;            // a parameter that nothing may set: the sample time
+  double fallback = 0.0;   // default of a parameter or an optional input, initial value of a state
+  int initial_param = -1;  // slot of the parameter that gives the initial value, instead of `fallback`
+  Range range;             // of a parameter
+  std::string setting;     // key that gives a parameter's value; `entry` counts in row-major order
+  int entry = -1;          // -1: the key's value is the parameter itself
+  std::string reference;   // parameter of the model that this one is bound to (a formula's free name)
+  bool optional = false;   // an input that may stay unconnected
+  bool fixed = false;      // a parameter that nothing may set: the sample time
   Direction direction = Direction::either;
   // Objects and memories are no numbers: their slots count in arrays of their own.
-  std::string type;                                    // name of the C++ type; ends of a wire must agree
+  std::string type;                                        // name of the C++ type; ends of a wire must agree
   std::shared_ptr<const void> (*make_object)() = nullptr;  // the value before the first hit
   std::any (*make_memory)() = nullptr;
 
@@ -70,9 +83,9 @@ struct PortSpec {
 /// A key that fixes the block's shape.
 struct StructureSpec {
   std::string key;
-  std::string fallback;               // as it would be written in a model file
+  std::string fallback;  // as it would be written in a model file
   std::string doc;
-  std::vector<std::string> choices;   // of an enumerated key
+  std::vector<std::string> choices;  // of an enumerated key
 };
 
 /// An output element that is an input element (Mux, Demux): no equation, no copy.
@@ -90,6 +103,7 @@ struct Specification {
   std::vector<SlotSpec> absent;    // what other structure would declare
   std::optional<Rational> period;  // of a sampled block
   Rational offset;                 // its first hit
+  bool refused = false;            // a structural mistake was reported: the equations must not run
 
   bool sampled() const { return period.has_value(); }
   int count(SlotKind kind) const;

@@ -10,6 +10,7 @@ namespace flyball {
 bool Block::given(const std::string& key) const { return settings_ != nullptr && settings_->given(key); }
 
 void Block::refuse(const std::string& key, std::string message) {
+  spec_.refused = true;
   if (settings_ != nullptr) settings_->refuse(key, std::move(message));
 }
 
@@ -18,13 +19,19 @@ std::string Block::text(const std::string& key, const std::string& fallback, std
   return settings_ == nullptr ? fallback : settings_->text(key).value_or(fallback);
 }
 
-std::string Block::choice(const std::string& key, const std::string& fallback, std::vector<std::string> choices,
-                          std::string doc) {
+std::string Block::choice(const std::string& key, const std::string& fallback,
+                          std::vector<std::string> choices, std::string doc) {
   const std::string chosen = text(key, fallback, std::move(doc));
   spec_.structure.back().choices = choices;
   if (std::ranges::find(choices, chosen) != choices.end()) return chosen;
   refuse(key, fmt::format("expected \"{}\", found \"{}\"", fmt::join(choices, "\", \""), chosen));
   return fallback;
+}
+
+int Block::option(const std::string& key, const std::string& fallback, std::vector<std::string> choices,
+                  std::string doc) {
+  const std::string chosen = choice(key, fallback, choices, std::move(doc));
+  return static_cast<int>(std::ranges::find(choices, chosen) - choices.begin());
 }
 
 int Block::count(const std::string& key, int fallback, int least, int most, std::string doc) {
@@ -43,7 +50,8 @@ bool Block::flag(const std::string& key, bool fallback, std::string doc) {
 
 std::vector<std::string> Block::list(const std::string& key, const std::vector<std::string>& fallback,
                                      std::string doc) {
-  spec_.structure.push_back({key, fmt::format("[\"{}\"]", fmt::join(fallback, "\", \"")), std::move(doc), {}});
+  spec_.structure.push_back(
+      {key, fmt::format("[\"{}\"]", fmt::join(fallback, "\", \"")), std::move(doc), {}});
   return settings_ == nullptr ? fallback : settings_->list(key).value_or(fallback);
 }
 
@@ -112,8 +120,8 @@ Coefficients Block::declare_coefficients(const std::string& key, const Shape& sh
   return {shape.rows, shape.columns, std::move(entries)};
 }
 
-Coefficients Block::coefficients(const std::string& key, const std::vector<double>& fallback, std::string unit,
-                                 std::string doc) {
+Coefficients Block::coefficients(const std::string& key, const std::vector<double>& fallback,
+                                 std::string unit, std::string doc) {
   spec_.structure.push_back({key, written(fallback), doc, {}});
   Shape shape = shape_of({fallback});
   if (given(key)) {
