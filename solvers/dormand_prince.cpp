@@ -1,0 +1,217 @@
+#include "solvers/dormand_prince.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "solvers/hermite.h"
+#include "solvers/step_failure.h"
+
+namespace flyball {
+namespace {
+
+// Hairer, Nørsett, Wanner I, table II.5.2. The last row of a is the fifth-order solution.
+constexpr double c2 = 1.0 / 5.0, c3 = 3.0 / 10.0, c4 = 4.0 / 5.0, c5 = 8.0 / 9.0;
+constexpr double a2[] = {1.0 / 5.0};
+constexpr double a3[] = {3.0 / 40.0, 9.0 / 40.0};
+constexpr double a4[] = {44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0};
+constexpr double a5[] = {19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0};
+constexpr double a6[] = {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0};
+constexpr double a7[] = {35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0};
+// Fifth- minus fourth-order weights.
+constexpr double e[] = {71.0 / 57600.0,      0.0,          -71.0 / 16695.0, 71.0 / 1920.0,
+                        -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0};
+// Shampine's choice of the quartic term of the extension, as in dopri5.f.
+constexpr double d[] = {-12715105075.0 / 11282082432.0,  0.0,
+                        87487479700.0 / 32700410799.0,   -10690763975.0 / 1880347072.0,
+                        701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0,
+                        69997945.0 / 29380423.0};
+
+// The controller of dopri5.f.
+constexpr double safety = 0.9, beta = 0.04, exponent = 0.2 - 0.75 * beta;
+constexpr double least_factor = 0.2, greatest_factor = 10.0, least_error = 1e-4;
+
+/// The sum of weights[j] * rates[j * stride], written out at compile time.
+template <class T, std::size_t... J>
+T combine(const double* weights, const T* rates, int stride, std::index_sequence<J...>) {
+  return (... + (weights[J] * rates[static_cast<int>(J) * stride]));
+}
+
+}  // namespace
+
+template <class T>
+DormandPrince<T>::DormandPrince(System<T>& system, const StepperOptions& options)
+    : system_(system),
+      options_(options),
+      size_(system.size()),
+      storage_(static_cast<std::size_t>(rows * size_), T(0.0)),
+      begin_(std::numeric_limits<double>::quiet_NaN()),
+      end_(begin_),
+      taken_(0.0) {
+  if (!(options.max_step > 0.0)) throw std::invalid_argument("dp5 needs a max_step above 0");
+}
+
+template <class T>
+void DormandPrince<T>::restart(T t, const T* x, StepMemory&, bool changed) {
+  const bool rates_hold = !changed && value_of(t) == value_of(end_);
+  end_ = t;
+  if (rates_hold) return;
+  std::copy(x, x + size_, row(after));
+  system_.rates(t, row(after), row(last_rate));
+  ++this->statistics_.rate_evaluations;
+  ++this->statistics_.restarts;
+}
+
+template <class T>
+T DormandPrince<T>::step(T limit, StepMemory& memory) {
+  if (value_of(limit) < value_of(end_)) throw std::logic_error("a step to a limit in the past");
+  continue_from_end();
+  if (size_ == 0) return idle_step(limit);
+  const double remaining = value_of(limit) - value_of(begin_);
+  if (!(memory.size > 0.0)) memory.size = first_step(remaining);
+  bool rejected = false;
+  for (;;) {
+    const Reach next = reach(std::min(memory.size, options_.max_step), remaining, options_.max_step);
+    attempt(next.lands ? limit : begin_ + next.size);
+    const double error = error_norm();
+    if (error <= 1.0) {
+      remember(error, next, rejected, memory);
+      ++this->statistics_.steps;
+      return end_;
+    }
+    ++this->statistics_.rejected;
+    rejected = true;
+    memory.size = next.size / std::min(1.0 / least_factor, std::pow(error, exponent) / safety);
+    if (memory.size < vanishing_step(value_of(begin_))) fail(memory.size);
+  }
+}
+
+/// A diagram without states still has outputs: the rates are called for them.
+template <class T>
+T DormandPrince<T>::idle_step(T limit) {
+  const double remaining = value_of(limit) - value_of(begin_);
+  const Reach next = reach(options_.max_step, remaining, options_.max_step);
+  end_ = next.lands ? limit : begin_ + next.size;
+  system_.rates(end_, row(after), row(last_rate));
+  ++this->statistics_.rate_evaluations;
+  ++this->statistics_.steps;
+  return end_;
+}
+
+template <class T>
+void DormandPrince<T>::continue_from_end() {
+  begin_ = end_;
+  std::copy(row(after), row(after) + size_, row(before));
+  std::copy(row(last_rate), row(last_rate) + size_, row(0));
+}
+
+template <class T>
+double DormandPrince<T>::first_step(double remaining) {
+  const T* x = row(before);
+  const T* rate = row(0);
+  const auto norm = [&](auto&& component) {
+    double sum = 0.0;
+    for (int i = 0; i < size_; ++i) {
+      const double weighted = component(i) / (options_.atol + options_.rtol * std::fabs(value_of(x[i])));
+      sum += weighted * weighted;
+    }
+    return std::sqrt(sum / size_);
+  };
+  const double d0 = norm([&](int i) { return value_of(x[i]); });
+  const double d1 = norm([&](int i) { return value_of(rate[i]); });
+  const double guess = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
+  const double h0 = std::min({guess, remaining, options_.max_step});
+
+  T* euler = row(trial);
+  T* euler_rate = row(1);
+  for (int i = 0; i < size_; ++i) euler[i] = x[i] + h0 * rate[i];
+  system_.rates(begin_ + h0, euler, euler_rate);
+  ++this->statistics_.rate_evaluations;
+  const double d2 = norm([&](int i) { return value_of(euler_rate[i]) - value_of(rate[i]); }) / h0;
+  const double curved = std::max(d1, d2);
+  const double h1 = curved <= 1e-15 ? std::max(1e-6, 1e-3 * h0) : std::pow(0.01 / curved, 0.2);
+  return std::min({100.0 * h0, h1, options_.max_step});
+}
+
+template <class T>
+void DormandPrince<T>::attempt(T end) {
+  end_ = end;
+  taken_ = end_ - begin_;
+  stage(a2, begin_ + c2 * taken_, trial);
+  stage(a3, begin_ + c3 * taken_, trial);
+  stage(a4, begin_ + c4 * taken_, trial);
+  stage(a5, begin_ + c5 * taken_, trial);
+  stage(a6, end_, trial);
+  stage(a7, end_, after);
+  this->statistics_.rate_evaluations += stages - 1;
+}
+
+template <class T>
+template <std::size_t N>
+void DormandPrince<T>::stage(const double (&a)[N], T t, int target) {
+  const T* x = row(before);
+  const T* rates = row(0);
+  T* y = row(target);
+  for (int i = 0; i < size_; ++i) {
+    y[i] = x[i] + taken_ * combine(a, rates + i, size_, std::make_index_sequence<N>());
+  }
+  system_.rates(t, y, row(static_cast<int>(N)));
+}
+
+template <class T>
+double DormandPrince<T>::error_of(int i) const {
+  const T* rates = row(0) + i;
+  double sum = 0.0;
+  for (int j = 0; j < stages; ++j) sum += e[j] * value_of(rates[j * size_]);
+  const double scale = std::max(std::fabs(value_of(row(before)[i])), std::fabs(value_of(row(after)[i])));
+  return value_of(taken_) * sum / (options_.atol + options_.rtol * scale);
+}
+
+template <class T>
+double DormandPrince<T>::error_norm() const {
+  double sum = 0.0;
+  for (int i = 0; i < size_; ++i) {
+    const double weighted = error_of(i);
+    sum += weighted * weighted;
+  }
+  return std::sqrt(sum / size_);
+}
+
+template <class T>
+void DormandPrince<T>::remember(double error, const Reach& taken, bool rejected, StepMemory& memory) const {
+  const double shrink = std::pow(error, exponent) / std::pow(memory.last_error, beta) / safety;
+  double next = taken.size / std::clamp(shrink, 1.0 / greatest_factor, 1.0 / least_factor);
+  if (rejected) next = std::min(next, taken.size);
+  // The error of a shortened step belongs to a size that will not be tried again.
+  if (taken.shortened && next < memory.size) return;
+  memory.size = std::min(next, options_.max_step);
+  memory.last_error = std::max(error, least_error);
+}
+
+template <class T>
+void DormandPrince<T>::fail(double next) const {
+  std::vector<double> weighted;
+  for (int i = 0; i < size_; ++i) weighted.push_back(error_of(i));
+  throw step_vanished(value_of(begin_), next, worst_states(system_, weighted));
+}
+
+template <class T>
+void DormandPrince<T>::interpolate(T t, T* x) const {
+  const T theta = (t - begin_) / taken_;
+  const HermiteWeights<T> hermite(theta);
+  const T quartic = theta * theta * (1.0 - theta) * (1.0 - theta) * taken_;
+  const T first = hermite.rate_before * taken_, last = hermite.rate_after * taken_;
+  const T* rates = row(0);
+  for (int i = 0; i < size_; ++i) {
+    const T bubble = combine(d, rates + i, size_, std::make_index_sequence<stages>());
+    x[i] = hermite.before * row(before)[i] + hermite.after * row(after)[i] + first * rates[i] +
+           last * row(last_rate)[i] + quartic * bubble;
+  }
+}
+
+template class DormandPrince<double>;
+template class DormandPrince<Jet>;
+
+}  // namespace flyball
