@@ -1,0 +1,157 @@
+#include "solvers/plan_system.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/errors.h"
+
+namespace flyball {
+
+PlanSystem::PlanSystem(const Plan& plan, Workspace<double>& workspace)
+    : plan_(plan),
+      workspace_(workspace),
+      jets_(plan),
+      jet_rates_(plan.layout.states()),
+      zero_rates_(plan.layout.size - plan.layout.first_relation) {}
+
+void PlanSystem::place(double t, const double* x) {
+  workspace_.values[0] = t;
+  double* states = workspace_.values.data() + plan_.layout.first_state;
+  if (x != states) std::copy_n(x, size(), states);
+}
+
+void PlanSystem::rates(double t, const double* x, double* dx) {
+  place(t, x);
+  run(plan_.rates, plan_, frame(plan_, workspace_, dx));
+  if (!all_finite(dx, size())) throw_first_bad(plan_.rates, plan_, workspace_);
+}
+
+void PlanSystem::load_jets() {
+  std::ranges::transform(workspace_.values, jets_.values.begin(), [](double x) { return Jet(x); });
+  jets_.bits = workspace_.bits;
+}
+
+void PlanSystem::jacobian(double t, const double* x, double* values) {
+  place(t, x);
+  load_jets();
+  const Sparsity& pattern = plan_.pattern;
+  Jet* states = jets_.values.data() + plan_.layout.first_state;
+  const Frame<Jet> f = frame(plan_, jets_, jet_rates_.data());
+  for (int first = 0; first < plan_.colouring.colours; first += Jet::DIMENSION) {
+    const auto direction = [&](int c) { return plan_.colouring.colour[c] - first; };
+    const auto seeded = [&](int c) { return direction(c) >= 0 && direction(c) < Jet::DIMENSION; };
+    for (int c = 0; c < pattern.size; ++c) {
+      states[c].v.setZero();
+      if (seeded(c)) states[c].v[direction(c)] = 1.0;
+    }
+    run(plan_.rates, plan_, f);
+    for (int c = 0; c < pattern.size; ++c) {
+      if (!seeded(c)) continue;
+      for (int k = pattern.start[c]; k < pattern.start[c + 1]; ++k) {
+        values[k] = jet_rates_[pattern.row[k]].v[direction(c)];
+        if (std::isfinite(values[k])) continue;
+        throw SimulationError(SimulationError::Kind::not_finite, t,
+                              fmt::format("the derivative of the rate of {} by {} is {} at t = {} s",
+                                          state_name(pattern.row[k]), state_name(c), values[k], t));
+      }
+    }
+  }
+}
+
+const std::vector<double>& PlanSystem::zero_rates(const double* dx) {
+  load_jets();
+  jets_.values[0].v[0] = 1.0;
+  for (int k = 0; k < size(); ++k) jets_.values[plan_.layout.first_state + k].v[0] = dx[k];
+  run(plan_.zeros, plan_, frame(plan_, jets_));
+  for (std::size_t k = 0; k < zero_rates_.size(); ++k) {
+    zero_rates_[k] = jets_.values[plan_.layout.first_relation + static_cast<int>(k)].v[0];
+  }
+  return zero_rates_;
+}
+
+bool all_finite(const double* x, int n) {
+  // 0 times a finite number is 0, times anything else NaN; four sums hide the latency of one.
+  double sum[4] = {0.0, 0.0, 0.0, 0.0};
+  int k = 0;
+  for (; k + 4 <= n; k += 4) {
+    for (int j = 0; j < 4; ++j) sum[j] += 0.0 * x[k + j];
+  }
+  for (; k < n; ++k) sum[0] += 0.0 * x[k];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]) == 0.0;
+}
+
+bool outputs_are_finite(const Plan& plan, const Workspace<double>& workspace) {
+  const Layout& layout = plan.layout;
+  const double* v = workspace.values.data();
+  if (!all_finite(v + layout.first_state, layout.first_relation - layout.first_state)) return false;
+  // A limit may be infinite, so a relation may; NaN has no sign.
+  return std::none_of(v + layout.first_relation, v + layout.first_alarm, [](double z) { return z != z; });
+}
+
+namespace {
+
+/// "u = 3, gain = 2": what the instance read, for the message.
+std::string readings(const Op& op, const int* index, const Workspace<double>& workspace) {
+  std::string text;
+  for (int s = 0; s < op.stride; ++s) {
+    const SlotSpec& spec = op.object->specification->slots[s];
+    const bool read = spec.kind == SlotKind::input || spec.kind == SlotKind::param ||
+                      spec.kind == SlotKind::state || spec.kind == SlotKind::held;
+    if (!read) continue;
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", spec.name, workspace.values[index[s]]);
+  }
+  return text.empty() ? text : fmt::format(" ({})", text);
+}
+
+/// The first slot that this call made bad; -1 when all is well.
+int bad_result(const Op& op, const int* index, const Plan& plan, const Workspace<double>& workspace,
+               const std::vector<double>& dx) {
+  for (int s = 0; s < op.stride; ++s) {
+    const SlotKind kind = op.object->specification->slots[s].kind;
+    const double value = op.object->specification->slots[s].numeric() ? workspace.values[index[s]] : 0.0;
+    if (op.phase == Phase::outputs && kind == SlotKind::output && !std::isfinite(value)) return s;
+    if (op.phase == Phase::rates && kind == SlotKind::state &&
+        !std::isfinite(dx[index[s] - plan.layout.first_state])) {
+      return s;
+    }
+    if (op.phase == Phase::relations && kind == SlotKind::relation && std::isnan(value)) return s;
+    if (op.phase == Phase::crossings && kind == SlotKind::crossing && std::isnan(value)) return s;
+    if (op.phase == Phase::schedule && kind == SlotKind::alarm && std::isnan(value)) return s;
+  }
+  return -1;
+}
+
+}  // namespace
+
+void throw_first_bad(const Program& program, const Plan& plan, Workspace<double>& workspace, bool hits) {
+  const double t = workspace.values[0];
+  for (int k = plan.layout.first_state; k < plan.layout.first_output; ++k) {
+    if (std::isfinite(workspace.values[k])) continue;
+    throw SimulationError(SimulationError::Kind::not_finite, t,
+                          fmt::format("{} is {} at t = {} s", plan.slot_name(k), workspace.values[k], t));
+  }
+  std::vector<double> dx(plan.layout.states());
+  for (const Op& op : program.ops) {
+    if (op.rate >= 0 && !hits) continue;
+    for (int k = 0; k < op.count; ++k) {
+      Op one = op;
+      one.first += k * op.stride;
+      one.count = 1;
+      call(one, plan, frame(plan, workspace, dx.data()));
+      const int* index = plan.index.data() + one.first;
+      const int s = bad_result(one, index, plan, workspace, dx);
+      if (s < 0) continue;
+      const bool rate = op.phase == Phase::rates;
+      const double value = rate ? dx[index[s] - plan.layout.first_state] : workspace.values[index[s]];
+      throw SimulationError(SimulationError::Kind::not_finite, t,
+                            fmt::format("{}{} is {} at t = {} s{}", rate ? "the rate of " : "",
+                                        plan.slot_name(index[s]), value, t, readings(op, index, workspace)));
+    }
+  }
+  throw SimulationError(SimulationError::Kind::not_finite, t,
+                        fmt::format("a value is not finite at t = {} s", t));
+}
+
+}  // namespace flyball

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+
+#include "solvers/workspace.h"
+
+namespace flyball {
+
+/// The rates of a plan in a workspace, as steppers ask for them.
+class PlanSystem final : public System<double> {
+ public:
+  PlanSystem(const Plan& plan, Workspace<double>& workspace);
+
+  int size() const override { return plan_.layout.states(); }
+  void rates(double t, const double* x, double* dx) override;
+  std::string state_name(int i) const override { return plan_.slot_name(plan_.layout.first_state + i); }
+  const Sparsity& pattern() const override { return plan_.pattern; }
+  void jacobian(double t, const double* x, double* values) override;
+
+  /// Writes time and states into the workspace.
+  void place(double t, const double* x);
+
+  /// The time derivative of each relation and crossing (from Layout::first_relation on), along the flow with
+  /// the rates `dx`, at what the workspace holds.
+  const std::vector<double>& zero_rates(const double* dx);
+
+ private:
+  void load_jets();
+
+  const Plan& plan_;
+  Workspace<double>& workspace_;
+  Workspace<Jet> jets_;
+  std::vector<Jet> jet_rates_;
+  std::vector<double> zero_rates_;
+};
+
+/// Whether all of `n` numbers are finite.
+bool all_finite(const double* x, int n);
+
+/// Throws SimulationError (not_finite) that names block, port, time and inputs of the first bad number when
+/// `program` runs again, instance by instance, on what the workspace holds. `hits` runs sampled blocks, too.
+[[noreturn]] void throw_first_bad(const Program& program, const Plan& plan, Workspace<double>& workspace,
+                                  bool hits = false);
+
+/// Checks what a sweep of unsampled blocks wrote: outputs must be finite, relations and crossings not NaN.
+bool outputs_are_finite(const Plan& plan, const Workspace<double>& workspace);
+
+}  // namespace flyball

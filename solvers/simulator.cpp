@@ -1,0 +1,288 @@
+#include "solvers/simulator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "solvers/errors.h"
+
+namespace flyball {
+namespace {
+
+/// So many located events in a row, each within rounding of the one before, are no motion any more.
+constexpr int most_close_events = 50;
+
+std::string chosen_method(const std::string& method) { return method == "auto" ? "dp5" : method; }
+
+StepperOptions stepper_options(const SimulationSettings& settings) {
+  StepperOptions options;
+  options.rtol = settings.rtol;
+  options.atol = settings.atol;
+  options.max_step = settings.max_step.value_or(settings.stop / 50.0);
+  options.fixed_step = settings.step.value_or(settings.stop / 1000.0);
+  return options;
+}
+
+/// Times this close are one instant: rounding of an alarm's own arithmetic, and of a located root.
+double same_instant(double t) { return 16.0 * (std::nextafter(std::fabs(t), never) - std::fabs(t)); }
+
+void require_in_range(const std::string& name, double value, const Range& range) {
+  if (range.contains(value)) return;
+  throw std::invalid_argument(fmt::format("{} is {}, outside its range {}{}, {}{}", name, value,
+                                          range.lower_open ? '(' : '[', range.lower, range.upper,
+                                          range.upper_open ? ')' : ']'));
+}
+
+}  // namespace
+
+Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings& settings, LogOptions log)
+    : Simulator(plan, settings, Workspace<double>(*plan), log, Stage::fresh) {}
+
+Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings& settings,
+                     Workspace<double> checkpoint, LogOptions log)
+    : Simulator(std::move(plan), settings, std::move(checkpoint), log, Stage::resumed) {}
+
+Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings& settings,
+                     Workspace<double> workspace, LogOptions log, Stage stage)
+    : plan_(std::move(plan)),
+      settings_(settings),
+      log_options_(log),
+      stage_(stage),
+      method_(chosen_method(settings.method)),
+      options_(stepper_options(settings)),
+      workspace_(std::move(workspace)),
+      system_(*plan_, workspace_),
+      zeros_(*plan_, workspace_),
+      instant_(*plan_, workspace_, system_, zeros_),
+      stepper_(make_stepper(method_, system_, options_)),
+      log_(*plan_),
+      time_(workspace_.values[0]) {
+  if (settings.log_interval) {
+    log_step_ = static_cast<double>(settings.log_interval->numerator());
+    log_divisor_ = static_cast<double>(settings.log_interval->denominator());
+  } else {
+    log_step_ = settings.stop;
+    log_divisor_ = 1000.0;
+  }
+  due_.rates.assign(plan_->hit_rates.size(), 0);
+  due_.alarms.reserve(plan_->alarm_records.size());
+  recent_.reserve(2 * most_close_events);
+  row_before_.reserve(plan_->columns.size() + 1);
+  row_after_.reserve(plan_->columns.size() + 1);
+  if (log_options_.enabled)
+    log_.reserve(static_cast<std::int64_t>(settings.stop / log_step_ * log_divisor_) + 2);
+}
+
+void Simulator::begin() {
+  if (stage_ == Stage::fresh) {
+    initialise(*plan_, workspace_);
+    instant_.ask_schedules();
+    instant(0.0, next_tick(), false);
+  }
+  stage_ = Stage::running;
+  stepper_->restart(time_, workspace_.values.data() + plan_->layout.first_state, workspace_.step, true);
+}
+
+double Simulator::next_tick() const {
+  if (workspace_.ticks.empty()) return never;
+  const auto k = static_cast<double>(*std::ranges::min_element(workspace_.ticks));
+  return k * static_cast<double>(plan_->base_tick.numerator()) /
+         static_cast<double>(plan_->base_tick.denominator());
+}
+
+bool Simulator::advance() {
+  if (stage_ != Stage::running) begin();
+  if (time_ >= settings_.stop) return false;
+  const double tick = next_tick();
+  const double alarm = instant_.next_alarm();
+  const double due = std::fabs(tick - alarm) <= same_instant(tick) ? tick : std::min(tick, alarm);
+  const double limit = std::min(due, settings_.stop);
+  bool located = false;
+  double end = stepper_->step(limit, workspace_.step);
+  if (!zeros_.none()) end = locate(time_, end, limit, located);
+  if (!outputs_are_finite(*plan_, workspace_)) throw_first_bad(plan_->rates, *plan_, workspace_);
+  const bool is_instant = located || end >= due;
+  log_asked(end, !is_instant);
+  double* x = workspace_.values.data() + plan_->layout.first_state;
+  workspace_.values[0] = end;
+  if (located) {
+    stepper_->interpolate(end, x);
+  } else {
+    system_.place(end, stepper_->state());
+  }
+  if (is_instant) {
+    instant(end, tick, located);
+  } else {
+    time_ = end;
+  }
+  return time_ < settings_.stop;
+}
+
+/// The end of the step, or the first event in it.
+double Simulator::locate(double t0, double t1, double limit, bool& located) {
+  if (!stepper_->ends_with_rates()) system_.place(t1, stepper_->state());
+  if (zeros_.changed(stepper_->ends_with_rates()).empty()) return t1;
+  located = true;
+  const double found = zeros_.locate(t0, t1, *stepper_);
+  if (t1 < limit || limit - found > same_instant(limit)) return found;
+  zeros_.found_at(t1, *stepper_);
+  return t1;
+}
+
+void Simulator::instant(double t, double tick, bool located) {
+  const bool logs = log_options_.enabled && !log_.columns().empty();
+  const bool was_asked = logs && asked(t);
+  const bool jumps = logs && stage_ == Stage::running && log_options_.event_rows != EventRows::none;
+  row_before_.clear();
+  if (jumps) {
+    flyball::run(plan_->logs, *plan_, frame(*plan_, workspace_));
+    log_.read(workspace_.values, row_before_);
+  }
+  find_due(t, tick, located);
+  if (located) watch_progress(t);
+  const bool changed = instant_.run(due_);
+  time_ = t;
+  check_alarms(t);
+  if (logs) log_instant(was_asked);
+  if (stage_ == Stage::running && t < settings_.stop) {
+    stepper_->restart(t, workspace_.values.data() + plan_->layout.first_state, workspace_.step, changed);
+  }
+}
+
+void Simulator::find_due(double t, double tick, bool located) {
+  due_.located = located;
+  due_.hits = false;
+  if (tick <= t) {
+    const std::int64_t now = *std::ranges::min_element(workspace_.ticks);
+    for (std::size_t r = 0; r < due_.rates.size(); ++r) {
+      due_.rates[r] = workspace_.ticks[r] == now ? 1 : 0;
+      if (due_.rates[r] != 0) workspace_.ticks[r] += plan_->hit_rates[r].period_ticks;
+    }
+    due_.hits = true;
+    ++statistics_.hits;
+  } else {
+    std::ranges::fill(due_.rates, 0);
+  }
+  due_.alarms.clear();
+  for (std::size_t k = 0; k < plan_->alarm_records.size(); ++k) {
+    if (workspace_.values[plan_->alarm_records[k].slot] > t + same_instant(t)) continue;
+    due_.alarms.push_back(static_cast<int>(k));
+    ++statistics_.alarms;
+  }
+}
+
+void Simulator::check_alarms(double t) const {
+  for (const AlarmRecord& alarm : plan_->alarm_records) {
+    if (workspace_.values[alarm.slot] > t) continue;
+    throw SimulationError(SimulationError::Kind::alarm, t,
+                          fmt::format("{} asks to be woken at t = {} s, which is not after t = {} s",
+                                      plan_->slot_name(alarm.slot), workspace_.values[alarm.slot], t));
+  }
+}
+
+void Simulator::watch_progress(double t) {
+  const bool close = t - last_event_ <= 1e-10 * options_.max_step + same_instant(t);
+  last_event_ = t;
+  if (!close) {
+    close_events_ = 0;
+    recent_.clear();
+  }
+  for (const int k : zeros_.found()) {
+    if (std::ranges::find(recent_, k) == recent_.end()) recent_.push_back(k);
+  }
+  if (++close_events_ > most_close_events) throw_chattering(t);
+}
+
+void Simulator::throw_chattering(double t) const {
+  // First those that rates read: they are what makes the motion slide.
+  std::vector<int> order = recent_;
+  std::ranges::stable_partition(order, [&](int k) {
+    return std::ranges::find(plan_->externals, zeros_.slot(k)) != plan_->externals.end();
+  });
+  std::string names;
+  for (const int k : order) names += (names.empty() ? "" : ", ") + zeros_.name(k);
+  throw SimulationError(
+      SimulationError::Kind::chattering, t,
+      fmt::format(
+          "chattering at t = {} s: {} events in a row without progress, by {}; the motion slides along the "
+          "switching condition or its events pile up: give the switch a hysteresis, or end the run before",
+          t, close_events_, names));
+}
+
+bool Simulator::asked(double t) const {
+  return std::fabs(log_time(workspace_.log_position) - t) <= same_instant(t);
+}
+
+void Simulator::log_asked(double end, bool with_end) {
+  if (!log_options_.enabled || log_.columns().empty()) return;
+  double* x = workspace_.values.data() + plan_->layout.first_state;
+  const Frame<double> f = frame(*plan_, workspace_);
+  for (double t = log_time(workspace_.log_position); with_end ? t <= end : t < end - same_instant(end);
+       t = log_time(workspace_.log_position)) {
+    workspace_.values[0] = t;
+    stepper_->interpolate(t, x);
+    flyball::run(plan_->logs, *plan_, f);
+    log_.append(workspace_.values);
+    ++workspace_.log_position;
+  }
+  if (!with_end || end < settings_.stop || (log_.rows() > 0 && log_.time(log_.rows() - 1) >= end)) return;
+  workspace_.values[0] = end;
+  stepper_->interpolate(end, x);
+  flyball::run(plan_->logs, *plan_, f);
+  log_.append(workspace_.values);
+}
+
+/// The rows of an instant: both sides of a jump, one where the signals are continuous and the time was asked
+/// for.
+void Simulator::log_instant(bool was_asked) {
+  if (was_asked) ++workspace_.log_position;
+  log_.read(workspace_.values, row_after_);
+  const bool jump = !row_before_.empty() && row_before_ != row_after_;
+  if (jump && log_options_.event_rows == EventRows::both) log_.append_row(row_before_);
+  if (jump || was_asked || time_ >= settings_.stop) log_.append_row(row_after_);
+}
+
+void Simulator::run(const std::function<bool(double)>& progress) {
+  constexpr int steps_between = 256;
+  for (int k = 1; advance(); ++k) {
+    if (progress && k % steps_between == 0 && !progress(time_ / settings_.stop)) return;
+  }
+  if (progress) progress(1.0);
+}
+
+RunStatistics Simulator::statistics() const {
+  RunStatistics result = statistics_;
+  result.stepper = stepper_->statistics();
+  result.events = instant_.events();
+  return result;
+}
+
+void Simulator::set_parameter(std::string_view name, double value) {
+  const int slot = plan_->parameter_slot(name);
+  if (slot < 0) throw std::invalid_argument(fmt::format("there is no parameter {}", name));
+  const bool literal = std::ranges::find(plan_->literals, slot, &Start::slot) != plan_->literals.end();
+  if (!literal) throw std::invalid_argument(fmt::format("{} is computed from other parameters", name));
+  const int p = plan_->diagram->find_parameter(name);
+  if (p >= 0 && plan_->diagram->parameters[p].structural) {
+    throw std::invalid_argument(fmt::format("{} fixes the structure of a block: it takes a new plan", name));
+  }
+  workspace_.values[slot] = value;
+  derive(*plan_, workspace_);
+  for (const Parameter& parameter : plan_->diagram->parameters) {
+    const auto at = static_cast<std::size_t>(&parameter - plan_->diagram->parameters.data());
+    require_in_range(parameter.name, workspace_.values[plan_->model_slots[at]], parameter.range);
+  }
+  for (std::size_t i = 0; i < plan_->diagram->instances.size(); ++i) {
+    const Instance& instance = plan_->diagram->instances[i];
+    for (const auto& [local, binding] : instance.parameters) {
+      const SlotSpec& spec = instance.object->specification->slots[local];
+      const double x = workspace_.values[plan_->index_of(static_cast<int>(i))[local]];
+      require_in_range(fmt::format("{}.{}", instance.name, spec.name), x, spec.range);
+    }
+  }
+}
+
+}  // namespace flyball

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "solvers/instant.h"
+#include "solvers/log.h"
+#include "solvers/stepper.h"
+
+namespace flyball {
+
+struct LogOptions {
+  bool enabled = true;
+  EventRows event_rows = EventRows::both;
+};
+
+/// What a run did, for its summary and the result's metadata.
+struct RunStatistics {
+  StepperStatistics stepper;
+  long hits = 0;  // instants with at least one sampled block
+  long alarms = 0;
+  long events = 0;  // relations and crossings that fired
+};
+
+/// Runs one plan in one workspace: steps, finds events, carries out instants, logs.
+class Simulator {
+ public:
+  Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings& settings, LogOptions log = {});
+  /// Goes on from a checkpoint: a copy of the workspace of another simulator of the same plan.
+  Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings& settings,
+            Workspace<double> checkpoint, LogOptions log = {});
+  Simulator(const Simulator&) = delete;
+  Simulator& operator=(const Simulator&) = delete;
+
+  /// One accepted step and, where one is due, the instant at its end. False at the stop time.
+  /// Throws SimulationError; what was logged stays.
+  bool advance();
+
+  /// Runs to the stop time. `progress` gets the part done, from 0 to 1, and stops the run by giving false.
+  void run(const std::function<bool(double)>& progress = {});
+
+  double time() const { return time_; }
+  /// Valid between calls of `advance`; a copy is a checkpoint.
+  const Workspace<double>& workspace() const { return workspace_; }
+  const Plan& plan() const { return *plan_; }
+  const Log& log() const { return log_; }
+  RunStatistics statistics() const;
+  /// The method that `auto` stood for, and the longest step that was allowed.
+  const std::string& method() const { return method_; }
+  double max_step() const { return options_.max_step; }
+
+  /// Sets a parameter before the run begins: "K" or "block.parameter", SI. Throws std::invalid_argument when
+  /// there is none, when it is structural or derived, or when the value is out of range.
+  void set_parameter(std::string_view name, double value);
+
+ private:
+  enum class Stage { fresh, resumed, running };
+  Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings& settings, Workspace<double> workspace,
+            LogOptions log, Stage stage);
+
+  void begin();
+  double next_tick() const;
+  double locate(double t0, double t1, double limit, bool& located);
+  void instant(double t, double tick, bool located);
+  void find_due(double t, double tick, bool located);
+  void check_alarms(double t) const;
+  void watch_progress(double t);
+  [[noreturn]] void throw_chattering(double t) const;
+
+  double log_time(std::int64_t k) const { return static_cast<double>(k) * log_step_ / log_divisor_; }
+  bool asked(double t) const;
+  void log_asked(double end, bool with_end);
+  void log_instant(bool was_asked);
+
+  std::shared_ptr<const Plan> plan_;
+  SimulationSettings settings_;
+  LogOptions log_options_;
+  Stage stage_;
+  std::string method_;
+  StepperOptions options_;
+  double log_step_ = 0.0, log_divisor_ = 1.0;  // asked time k is k * step / divisor, rounded once
+  Workspace<double> workspace_;
+  PlanSystem system_;
+  Zeros zeros_;
+  Instant instant_;
+  std::unique_ptr<Stepper<double>> stepper_;
+  Log log_;
+  Due due_;
+  std::vector<double> row_before_, row_after_;
+  double time_;
+  double last_event_ = -1.0;
+  int close_events_ = 0;     // located events in a row without progress
+  std::vector<int> recent_;  // what fired in them, as Zeros counts
+  RunStatistics statistics_;
+};
+
+}  // namespace flyball

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <any>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "models/plan.h"
+#include "solvers/stepper.h"
+
+namespace flyball {
+
+/// Every number of one run. A copy is a checkpoint: it holds indices and values, no pointers into itself or
+/// into the run that it came from.
+template <class T>
+struct Workspace {
+  explicit Workspace(const Plan& plan);
+
+  std::vector<T> values;            // Plan::layout tells what stands where
+  std::vector<T> next;              // staged states and held values
+  std::vector<unsigned char> bits;  // of relations
+  std::vector<signed char> sides;   // of crossings: -1, 1, 0 as long as it is not known
+  std::vector<std::int64_t> ticks;  // of each rate: base tick of its next hit
+  std::vector<std::shared_ptr<const void>> objects;
+  std::vector<std::shared_ptr<const void>> next_objects;
+  std::vector<std::any> memories;
+  StepMemory step;
+  std::int64_t log_position = 0;  // number of the next asked log time
+};
+
+/// The arrays as kernels see them; `rates` may be null where no rates are asked for.
+template <class T>
+Frame<T> frame(const Plan& plan, Workspace<T>& workspace, T* rates = nullptr) {
+  Frame<T> f;
+  f.values = workspace.values.data();
+  f.rates = rates;
+  f.next = workspace.next.data();
+  f.bits = workspace.bits.data();
+  f.first_state = plan.layout.first_state;
+  f.first_relation = plan.layout.first_relation;
+  f.objects = workspace.objects.data();
+  f.next_objects = workspace.next_objects.data();
+  f.memories = workspace.memories.data();
+  return f;
+}
+
+inline void call(const Op& op, const Plan& plan, const Frame<double>& f) {
+  op.on_double(op.self, f, plan.index.data() + op.first, op.stride, op.count);
+}
+inline void call(const Op& op, const Plan& plan, const Frame<Jet>& f) {
+  op.on_jet(op.self, f, plan.index.data() + op.first, op.stride, op.count);
+}
+
+/// Runs a program without hits: minor steps, logs, zeros, schedules.
+template <class T>
+void run(const Program& program, const Plan& plan, const Frame<T>& f) {
+  for (const Op& op : program.ops) call(op, plan, f);
+}
+
+/// Writes parameters and initial values, clears bits, sides and hits. Throws SimulationError (not_finite)
+/// when a derived parameter or an initial value is not finite.
+template <class T>
+void initialise(const Plan& plan, Workspace<T>& workspace);
+
+/// Recomputes derived parameters after a parameter was set.
+template <class T>
+void derive(const Plan& plan, Workspace<T>& workspace);
+
+}  // namespace flyball

@@ -1,0 +1,160 @@
+#include "solvers/zeros.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/root.h"
+
+namespace flyball {
+
+Zeros::Zeros(const Plan& plan, Workspace<double>& workspace) : plan_(plan), workspace_(workspace) {
+  const Layout& layout = plan.layout;
+  for (const int slot : plan.located_relations) {
+    watched_.push_back({slot, true, slot - layout.first_relation, Direction::either});
+  }
+  first_crossing_ = static_cast<int>(watched_.size());
+  for (int k = 0; k < layout.crossings(); ++k) {
+    watched_.push_back({layout.first_crossing + k, false, k, plan.crossing_records[k].direction});
+  }
+  changed_.reserve(watched_.size());
+  fired_.reserve(watched_.size());
+  forced_now_.reserve(watched_.size());
+  forced_.assign(layout.size - layout.first_relation, 0);
+  forced_value_.assign(forced_.size(), 0.0);
+  scale_.assign(watched_.size(), 0.0);
+}
+
+int Zeros::side(const Watched& w) const {
+  if (w.relation) return workspace_.bits[w.number] != 0 ? 1 : -1;
+  return workspace_.sides[w.number];
+}
+
+bool Zeros::wanted(const Watched& w, double z) const {
+  if (w.relation || w.direction == Direction::either) return true;
+  return (w.direction == Direction::rising) == (z > 0.0);
+}
+
+void Zeros::collect() {
+  changed_.clear();
+  for (std::size_t k = 0; k < watched_.size(); ++k) {
+    const Watched& w = watched_[k];
+    const double z = value(w.slot);
+    if (side(w) * z < 0.0 && wanted(w, z)) changed_.push_back(static_cast<int>(k));
+  }
+}
+
+const std::vector<int>& Zeros::changed(bool after_rates) {
+  run(after_rates ? plan_.zeros_rest : plan_.zeros, plan_, frame(plan_, workspace_));
+  collect();
+  if (!changed_.empty()) return changed_;
+  // Nothing fires in this step: crossings that went the other way are armed again.
+  for (std::size_t k = first_crossing_; k < watched_.size(); ++k) {
+    const double z = value(watched_[k].slot);
+    if (z != 0.0) workspace_.sides[watched_[k].number] = z > 0.0 ? 1 : -1;
+  }
+  return changed_;
+}
+
+void Zeros::evaluate_at(double t, const Stepper<double>& stepper) {
+  workspace_.values[0] = t;
+  stepper.interpolate(t, workspace_.values.data() + plan_.layout.first_state);
+  run(plan_.zeros, plan_, frame(plan_, workspace_));
+}
+
+double Zeros::locate(double t0, double t1, const Stepper<double>& stepper) {
+  for (const int k : changed_) scale_[k] = std::fabs(value(watched_[k].slot));
+  double end = t1;
+  for (std::size_t next = 0; next < changed_.size();) {
+    const int k = changed_[next];
+    const Watched& w = watched_[k];
+    const double found = locate_root(t0, end, side(w), [&](double t) {
+      evaluate_at(t, stepper);
+      const double z = value(w.slot);
+      scale_[k] = std::max(scale_[k], std::fabs(z));
+      return z;
+    });
+    if (found >= end) {  // at the end already: simultaneous with what was found there
+      ++next;
+      continue;
+    }
+    end = found;
+    evaluate_at(end, stepper);
+    collect();
+    // This one is settled; what else has changed by now changed earlier, or at the same time.
+    const auto self = std::ranges::find(changed_, k);
+    if (self != changed_.end()) std::iter_swap(changed_.begin(), self);
+    next = self != changed_.end() ? 1 : 0;
+  }
+  evaluate_at(end, stepper);
+  collect();
+  return end;
+}
+
+void Zeros::force() {
+  for (const int k : changed_) {
+    const Watched& w = watched_[k];
+    const bool up = value(w.slot) > 0.0;
+    if (w.relation) {
+      workspace_.bits[w.number] = up ? 1 : 0;
+    } else {
+      workspace_.sides[w.number] = up ? 1 : -1;
+    }
+    const int at = w.slot - plan_.layout.first_relation;
+    forced_[at] = 1;
+    forced_value_[at] = value(w.slot);
+    forced_now_.push_back(k);
+  }
+}
+
+void Zeros::settle(int slot) {
+  const int at = slot - plan_.layout.first_relation;
+  const double z = value(slot);
+  if (forced_[at] != 0 && z == forced_value_[at]) return;
+  if (workspace_.bits[at] != 0 ? z < 0.0 : z > 0.0) workspace_.bits[at] = z > 0.0 ? 1 : 0;
+}
+
+const std::vector<int>& Zeros::fired_crossings() {
+  fired_.clear();
+  run(plan_.crossings, plan_, frame(plan_, workspace_));
+  for (std::size_t k = first_crossing_; k < watched_.size(); ++k) {
+    const Watched& w = watched_[k];
+    const double z = value(w.slot);
+    const int at = w.slot - plan_.layout.first_relation;
+    if (z == 0.0 || (forced_[at] != 0 && z == forced_value_[at])) continue;
+    signed char& side = workspace_.sides[w.number];
+    const bool edge = side * z < 0.0;
+    side = z > 0.0 ? 1 : -1;
+    if (edge && wanted(w, z)) fired_.push_back(w.number);
+  }
+  return fired_;
+}
+
+bool Zeros::must_rearm() const {
+  return std::ranges::any_of(forced_now_, [&](int k) { return !watched_[k].relation; });
+}
+
+void Zeros::rearm(const std::vector<double>& slopes) {
+  for (const int k : forced_now_) {
+    const Watched& w = watched_[k];
+    if (w.relation) continue;
+    const double slope = slopes[w.slot - plan_.layout.first_relation];
+    // A root is located to a few ulp of time; 1e-10 of the value's size in the step covers its evaluation.
+    const double t = workspace_.values[0];
+    const double level = 1e-10 * scale_[k] + 16.0 * std::fabs(slope) * (std::nextafter(t, INFINITY) - t);
+    if (std::fabs(value(w.slot)) <= level && slope != 0.0) workspace_.sides[w.number] = slope > 0.0 ? 1 : -1;
+  }
+}
+
+void Zeros::release() {
+  for (const int k : forced_now_) forced_[watched_[k].slot - plan_.layout.first_relation] = 0;
+  forced_now_.clear();
+}
+
+std::string Zeros::name(int watched) const {
+  const Watched& w = watched_[watched];
+  return fmt::format("{} {}", w.relation ? "relation" : "crossing", plan_.slot_name(w.slot));
+}
+
+}  // namespace flyball

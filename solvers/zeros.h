@@ -1,0 +1,81 @@
+#pragma once
+
+#include <vector>
+
+#include "solvers/workspace.h"
+
+namespace flyball {
+
+/// Watches the relations and crossings of a run for changes of sign, and finds when they happen.
+class Zeros {
+ public:
+  Zeros(const Plan& plan, Workspace<double>& workspace);
+
+  bool none() const { return watched_.empty(); }
+
+  /// What changed side at the point that the workspace holds: positions in the order relations, crossings.
+  /// Evaluates first; after `rates` at the same point only the rest is evaluated.
+  const std::vector<int>& changed(bool after_rates);
+
+  /// The first time in (t0, t1] at which something has changed side, given that `changed` at t1 was not
+  /// empty. Leaves the workspace and `changed` at that time.
+  double locate(double t0, double t1, const Stepper<double>& stepper);
+
+  /// Takes the end of the step for the time of what was located just before it.
+  void found_at(double t1, const Stepper<double>& stepper) {
+    evaluate_at(t1, stepper);
+    collect();
+  }
+
+  /// At an instant that was located: forces the bits and sides of what `changed` to the side crossed to.
+  /// Until the instant ends they keep it, unless their value moves: rounding must not take a located root
+  /// back.
+  void force();
+  /// Sets the bit of a relation by its value; zero changes nothing.
+  void settle(int slot);
+  /// Evaluates crossings after a sweep; those that changed side in their direction, by number.
+  const std::vector<int>& fired_crossings();
+  /// Whether a crossing was forced in this instant.
+  bool must_rearm() const;
+  /// What was forced and is still at rounding level takes its side from the sign of its rate of change
+  /// (PlanSystem::zero_rates).
+  void rearm(const std::vector<double>& slopes);
+  /// Ends an instant: nothing is forced any more.
+  void release();
+
+  /// "relation above of limit": for messages.
+  std::string name(int watched) const;
+  bool is_relation(int watched) const { return watched_[watched].relation; }
+  /// Of the bit, or of the crossing.
+  int number(int watched) const { return watched_[watched].number; }
+  int slot(int watched) const { return watched_[watched].slot; }
+  /// What the last `changed` or `locate` found.
+  const std::vector<int>& found() const { return changed_; }
+
+ private:
+  struct Watched {
+    int slot;
+    bool relation;
+    int number;  // of the bit or the side
+    Direction direction;
+  };
+
+  double value(int slot) const { return workspace_.values[slot]; }
+  int side(const Watched& w) const;
+  bool wanted(const Watched& w, double z) const;
+  void collect();
+  void evaluate_at(double t, const Stepper<double>& stepper);
+
+  const Plan& plan_;
+  Workspace<double>& workspace_;
+  std::vector<Watched> watched_;
+  int first_crossing_ = 0;  // in watched_
+  std::vector<int> changed_;
+  std::vector<int> fired_;
+  std::vector<unsigned char> forced_;  // of each slot from first_relation on
+  std::vector<double> forced_value_;
+  std::vector<double> scale_;    // of each watched: its size at the end of the step in which it changed
+  std::vector<int> forced_now_;  // watched that this instant forced
+};
+
+}  // namespace flyball
