@@ -136,6 +136,12 @@ Output Block::output(std::string name, std::string unit, std::string doc) {
   return {port_slot(false, std::move(name), std::move(unit), std::move(doc))};
 }
 
+Output Block::output(std::string name, std::string unit, std::string doc, Param before_first_hit) {
+  const Output y = output(std::move(name), std::move(unit), std::move(doc));
+  spec_.slots[y.slot].initial_param = before_first_hit.slot;
+  return y;
+}
+
 Output Block::aliased(std::string name, int slot, std::string doc) {
   spec_.ports.push_back({std::move(name), std::move(doc), false, {}, {slot}});
   return {slot};

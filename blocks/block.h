@@ -56,6 +56,8 @@ class Block {
   Pose<Output> output_pose(std::string name, Pose<State> pose, std::string doc);
 
   Output output(std::string name, std::string unit, std::string doc);
+  /// Of a sampled block: what it shows before the first hit (else 0).
+  Output output(std::string name, std::string unit, std::string doc, Param before_first_hit);
   /// An output that is a state or a held value: same slot, no equation.
   Output output(std::string name, State x, std::string doc);
   Output output(std::string name, Held h, std::string doc);

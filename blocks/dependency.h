@@ -6,8 +6,9 @@
 
 namespace flyball {
 
-/// A scalar that has no value, only the set of slots that its value depends on. Running an equation once on it
-/// tells what each of its results reads. It cannot be compared, so a bare `if` on a signal does not compile.
+/// A scalar that has no value, only the set of slots that its value depends on. Running an equation once on
+/// it tells what each of its results reads. It cannot be compared, so a bare `if` on a signal does not
+/// compile.
 class Dependency {
  public:
   Dependency() = default;

@@ -8,8 +8,8 @@
 
 namespace flyball {
 
-/// The compiled equations of a block type on one scalar. A sweep runs `count` instances whose index maps stand
-/// `stride` apart; a handler runs one instance.
+/// The compiled equations of a block type on one scalar. A sweep runs `count` instances whose index maps
+/// stand `stride` apart; a handler runs one instance.
 template <class T>
 struct Kernels {
   using Sweep = void (*)(const void* block, const Frame<T>& frame, const int* index, int stride, int count);
@@ -49,21 +49,37 @@ namespace kernel {
 // What a block type defines is found by asking whether the call compiles; a method that is misspelt, or not
 // const, is missing, and its declaration is then refused at registration.
 template <class B, class V>
-concept Outputs = requires(const B& b, V& v) { b.outputs(v); };
+concept Outputs = requires(const B& b, V& v) {
+  b.outputs(v);
+};
 template <class B, class V>
-concept Rates = requires(const B& b, V& v) { b.rates(v); };
+concept Rates = requires(const B& b, V& v) {
+  b.rates(v);
+};
 template <class B, class V>
-concept RelationsOf = requires(const B& b, V& v) { b.relations(v); };
+concept RelationsOf = requires(const B& b, V& v) {
+  b.relations(v);
+};
 template <class B, class V>
-concept CrossingsOf = requires(const B& b, V& v) { b.crossings(v); };
+concept CrossingsOf = requires(const B& b, V& v) {
+  b.crossings(v);
+};
 template <class B, class V>
-concept Schedule = requires(const B& b, V& v) { b.schedule(v); };
+concept Schedule = requires(const B& b, V& v) {
+  b.schedule(v);
+};
 template <class B, class V>
-concept OnSample = requires(const B& b, V& v) { b.on_sample(v); };
+concept OnSample = requires(const B& b, V& v) {
+  b.on_sample(v);
+};
 template <class B, class V>
-concept OnTime = requires(const B& b, V& v) { b.on_time(v); };
+concept OnTime = requires(const B& b, V& v) {
+  b.on_time(v);
+};
 template <class B, class V>
-concept OnCrossing = requires(const B& b, V& v, Crossing c) { b.on_crossing(c, v); };
+concept OnCrossing = requires(const B& b, V& v, Crossing c) {
+  b.on_crossing(c, v);
+};
 
 /// Runs `method(block, view)` on each instance of a batch.
 template <class B, class T, Phase phase, auto method>

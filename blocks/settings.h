@@ -11,8 +11,8 @@
 
 namespace flyball {
 
-/// The rows and columns of a list or table of coefficients; `zero[r * columns + c]` marks entries that are the
-/// literal 0, which count as absent (structure), so that they make no false feedthrough.
+/// The rows and columns of a list or table of coefficients; `zero[r * columns + c]` marks entries that are
+/// the literal 0, which count as absent (structure), so that they make no false feedthrough.
 struct Shape {
   int rows = 0;
   int columns = 0;
@@ -34,7 +34,8 @@ class Settings {
   /// A list has one row; a list of lists has a row each.
   virtual std::optional<Shape> shape(std::string_view key) = 0;
   /// An expression; names that are not in `inputs` are parameters of the model.
-  virtual std::shared_ptr<const Formula> formula(std::string_view key, const std::vector<std::string>& inputs) = 0;
+  virtual std::shared_ptr<const Formula> formula(std::string_view key,
+                                                 const std::vector<std::string>& inputs) = 0;
   /// Reports what is wrong with the value of `key` (or with the block, when the key is not given).
   virtual void refuse(std::string_view key, std::string message) = 0;
 };

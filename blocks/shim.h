@@ -4,8 +4,8 @@
 
 namespace flyball::kernel {
 
-/// Runs a block that exists on double alone inside a Jet run: its numbers are gathered into local doubles, its
-/// double kernel runs, and what it wrote is scattered back with zero derivatives.
+/// Runs a block that exists on double alone inside a Jet run: its numbers are gathered into local doubles,
+/// its double kernel runs, and what it wrote is scattered back with zero derivatives.
 template <class B>
 class Shim {
  public:

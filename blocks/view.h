@@ -16,10 +16,10 @@ inline constexpr bool is_handler(Phase phase) { return phase >= Phase::sample; }
 /// The arrays of one run, as a kernel sees them. Made anew for each call, so a workspace can be copied.
 template <class T>
 struct Frame {
-  T* values = nullptr;                 // the value array
-  T* rates = nullptr;                  // of state s at s - first_state
-  T* next = nullptr;                   // staged states and held values, at slot - first_state
-  const unsigned char* bits = nullptr; // of relation r at r - first_relation
+  T* values = nullptr;                  // the value array
+  T* rates = nullptr;                   // of state s at s - first_state
+  T* next = nullptr;                    // staged states and held values, at slot - first_state
+  const unsigned char* bits = nullptr;  // of relation r at r - first_relation
   int first_state = 0;
   int first_relation = 0;
   std::shared_ptr<const void>* objects = nullptr;
@@ -33,11 +33,7 @@ class Target {
  public:
   explicit Target(T& slot) : slot_(slot) {}
   void operator=(const T& x) { slot_ = x; }
-  void operator=(double x)
-    requires(!std::is_same_v<T, double>)
-  {
-    slot_ = T(x);
-  }
+  void operator=(double x) requires(!std::is_same_v<T, double>) { slot_ = T(x); }
 
  private:
   T& slot_;
@@ -54,50 +50,20 @@ class View {
   const T& operator[](State x) const { return value(x); }
   const T& operator[](Held h) const { return value(h); }
   const T& operator[](SampleTime ts) const { return value(ts); }
-  const T& operator[](Output y) const
-    requires(phase != Phase::outputs)
-  {
-    return value(y);
-  }
-  Target<T> operator[](Output y) const
-    requires(phase == Phase::outputs)
-  {
-    return target(y);
-  }
-  Target<T> operator[](Relation r) const
-    requires(phase == Phase::relations)
-  {
-    return target(r);
-  }
-  Target<T> operator[](Crossing c) const
-    requires(phase == Phase::crossings)
-  {
-    return target(c);
-  }
-  Target<T> operator[](Alarm a) const
-    requires(phase == Phase::schedule)
-  {
-    return target(a);
-  }
+  const T& operator[](Output y) const requires(phase != Phase::outputs) { return value(y); }
+  Target<T> operator[](Output y) const requires(phase == Phase::outputs) { return target(y); }
+  Target<T> operator[](Relation r) const requires(phase == Phase::relations) { return target(r); }
+  Target<T> operator[](Crossing c) const requires(phase == Phase::crossings) { return target(c); }
+  Target<T> operator[](Alarm a) const requires(phase == Phase::schedule) { return target(a); }
 
   /// The time derivative of a state.
-  Target<T> rate(State x) const
-    requires(phase == Phase::rates)
-  {
+  Target<T> rate(State x) const requires(phase == Phase::rates) {
     return Target<T>(frame_.rates[index_[x.slot] - frame_.first_state]);
   }
 
   /// The value that a state or held value takes when this instant commits.
-  Target<T> next(State x) const
-    requires(is_handler(phase))
-  {
-    return staged(x);
-  }
-  Target<T> next(Held h) const
-    requires(is_handler(phase))
-  {
-    return staged(h);
-  }
+  Target<T> next(State x) const requires(is_handler(phase)) { return staged(x); }
+  Target<T> next(Held h) const requires(is_handler(phase)) { return staged(h); }
 
   /// Whether a relation is on. The engine owns the bit: it never changes during a step.
   Bit<T> on(Relation r) const {
@@ -127,17 +93,15 @@ class View {
     return *static_cast<const O*>(frame_.objects[index_[port.slot]].get());
   }
   template <class O>
-  O& operator[](Memory<O> memory) const
-    requires(phase == Phase::outputs || is_handler(phase))
-  {
+  O& operator[](Memory<O> memory) const requires(phase == Phase::outputs || is_handler(phase)) {
     return *std::any_cast<O>(&frame_.memories[index_[memory.slot]]);
   }
 
-  /// Makes an object visible: in `outputs` to all who read it later in this sweep, in a handler at the commit.
+  /// Makes an object visible: in `outputs` to all who read it later in this sweep, in a handler at the
+  /// commit.
   template <class O>
   void publish(ObjectOutput<O> port, std::shared_ptr<const O> object) const
-    requires(phase == Phase::outputs || is_handler(phase))
-  {
+      requires(phase == Phase::outputs || is_handler(phase)) {
     (phase == Phase::outputs ? frame_.objects : frame_.next_objects)[index_[port.slot]] = std::move(object);
   }
 

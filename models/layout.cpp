@@ -121,7 +121,7 @@ class SlotGiver {
       for (int s = 0; s < static_cast<int>(slots.size()); ++s) {
         if (slots[s].kind != kind || order_.source(i, s).connected()) continue;
         index(i, s) = give(i, s);
-        if (kind == SlotKind::state || kind == SlotKind::held) {
+        if (kind == SlotKind::state || kind == SlotKind::held || slots[s].initial_param >= 0) {
           const int from = slots[s].initial_param < 0 ? -1 : index(i, slots[s].initial_param);
           plan_.initial.push_back({index(i, s), slots[s].fallback, from});
         }

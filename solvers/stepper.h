@@ -5,15 +5,9 @@
 #include <vector>
 
 #include "blocks/scalar.h"
+#include "models/sparsity.h"
 
 namespace flyball {
-
-/// Compressed sparse columns: the rows of column c are row[start[c]] … row[start[c + 1] - 1], ascending.
-struct Sparsity {
-  int size = 0;
-  std::vector<int> start;
-  std::vector<int> row;
-};
 
 /// The right-hand side of x' = f(t, x) between two instants, as a stepper sees it.
 template <class T>
@@ -42,8 +36,8 @@ struct StepperOptions {
 /// What a variable-step method carries from step to step. It belongs to the workspace, so that a copied
 /// workspace continues with the same bits.
 struct StepMemory {
-  double size = 0.0;           // the step to try next; 0: the method chooses
-  double last_error = 1e-4;    // weighted error of the last accepted step (PI controller)
+  double size = 0.0;         // the step to try next; 0: the method chooses
+  double last_error = 1e-4;  // weighted error of the last accepted step (PI controller)
 };
 
 struct StepperStatistics {
@@ -54,15 +48,15 @@ struct StepperStatistics {
   long restarts = 0;
 };
 
-/// Advances a system by one accepted step at a time. All methods share this interface, so that instants, location
-/// of events and logging are written once.
+/// Advances a system by one accepted step at a time. All methods share this interface, so that instants,
+/// location of events and logging are written once.
 template <class T>
 class Stepper {
  public:
   virtual ~Stepper() = default;
 
-  /// Begins at (t, x), after an instant. `changed` is false when nothing that a rate depends on has changed: a
-  /// multistep method then keeps its history. The step size in `memory` is kept either way.
+  /// Begins at (t, x), after an instant. `changed` is false when nothing that a rate depends on has changed:
+  /// a multistep method then keeps its history. The step size in `memory` is kept either way.
   virtual void restart(T t, const T* x, StepMemory& memory, bool changed) = 0;
 
   /// One accepted step, never beyond `limit` and ending on it exactly when it is near. Returns the new time.

@@ -8,7 +8,7 @@ struct UnitDelay : Block {
   SampleTime ts = sample_time();
   Param initial = param("initial", 0.0, "any", any, "output at the first hit");
   Input u = input("u", "any", "signal");
-  Output y = output("y", "any", "the signal at the hit before");
+  Output y = output("y", "any", "the signal at the hit before", initial);
   Held last = held("last", initial, "any", "the signal at the last hit");
 
   void outputs(auto& v) const { v[y] = v[last]; }
