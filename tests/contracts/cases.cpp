@@ -1,0 +1,166 @@
+#include "tests/contracts/cases.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "tests/blocks/formulas.h"
+
+namespace flyball::test {
+namespace {
+
+using namespace std::string_literals;
+
+std::vector<Case> function_cases() {
+  std::vector<Case> all;
+  for (const char* function : {"cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "atan2"}) {
+    // asin and acos end at 1, tan at pi/2.
+    all.push_back({"TrigonometricFunction", function, {{"function", std::string(function)}}, 0.9});
+  }
+  all.push_back({"Sum", "five terms", {{"signs", "+-+--"s}}});
+  all.push_back({"Sum", "one term", {{"signs", "-"s}}});
+  all.push_back({"Product", "divisors", {{"signs", "/*/"s}}});
+  all.push_back({"Expression", "a kink", {{"inputs", Words{"u", "w"}}, {"formula", example_formula()}}});
+  all.push_back({"Expression", "branches", {{"inputs", Words{"u", "w"}}, {"formula", branching_formula()}}});
+  all.push_back({"Expression", "parameters", {{"inputs", Words{"w"}}, {"formula", example_formula()}}});
+  all.push_back({"Mux", "five", {{"inputs", 5.0}}});
+  all.push_back({"Demux", "one", {{"outputs", 1.0}}});
+  return all;
+}
+
+std::vector<Case> continuous_cases() {
+  return {
+      {"Integrator", "lower limit", {{"lower", -1.0}}},
+      {"Integrator", "upper limit", {{"upper", 1.0}}},
+      {"Integrator", "limits and reset", {{"lower", -1.0}, {"upper", 1.0}, {"reset", "rising"s}}},
+      {"Integrator", "falling reset", {{"reset", "falling"s}}},
+      {"Integrator", "either reset", {{"reset", "either"s}}},
+      {"TransferFcn", "second order", {{"numerator", Numbers{1.0}}, {"denominator", Numbers{1.0, 2.0, 5.0}}}},
+      {"TransferFcn",
+       "biproper",
+       {{"numerator", Numbers{2.0, 0.0, 1.0}}, {"denominator", Numbers{3.0, 0.0, 5.0}}}},
+      {"TransferFcn",
+       "leading zeros",
+       {{"numerator", Numbers{0.0, 0.0, 0.0, 4.0, 1.0}}, {"denominator", Numbers{1.0, 2.0, 0.0, 5.0}}}},
+      {"TransferFcn", "order 0", {{"numerator", Numbers{2.0}}, {"denominator", Numbers{4.0}}}},
+      {"StateSpace",
+       "two by two",
+       {{"A", Table{{0.0, 1.0}, {-2.0, -3.0}}},
+        {"B", Table{{1.0, 0.0}, {0.5, 1.0}}},
+        {"C", Table{{1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}}},
+        {"D", Table{{0.0, 0.0}, {1.0, 0.0}, {0.0, 2.0}}},
+        {"initial", Numbers{0.0, 3.0}}}},
+      {"StateSpace",
+       "no feedthrough",
+       {{"A", Table{{0.0, 1.0}, {-2.0, -3.0}}},
+        {"B", Table{{0.0}, {1.0}}},
+        {"C", Table{{1.0, 0.0}, {0.0, 1.0}}}}},
+  };
+}
+
+std::vector<Case> controller_cases() {
+  std::vector<Case> all;
+  for (const char* type : {"PID", "DiscretePID"}) {
+    const Keys sampled = type == "DiscretePID"s ? Keys{{"sample_time", *Rational::fraction(1, 100)}} : Keys{};
+    for (const bool two : {false, true}) {
+      for (const char* windup : {"none", "clamping", "back_calculation"}) {
+        Keys keys{
+            {"lower", -1.0}, {"upper", 1.0}, {"setpoint_weights", two}, {"anti_windup", std::string(windup)}};
+        keys.insert(sampled.begin(), sampled.end());
+        all.push_back({type, windup + (two ? ", two inputs"s : ""s), keys});
+      }
+    }
+  }
+  for (const char* rule : {"forward", "trapezoidal"}) {
+    all.push_back({"DiscretePID",
+                   rule,
+                   {{"sample_time", *Rational::fraction(1, 3)},
+                    {"integral", std::string(rule)},
+                    {"derivative", "filtered"s}}});
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const BlockType& type : catalogue()) {
+    all.push_back({type.name, "default", {}, type.name == "TrigonometricFunction" ? 0.9 : 2.0});
+  }
+  for (auto more : {function_cases(), continuous_cases(), controller_cases()}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
+}
+
+// splitmix64, Steele, Lea & Flood 2014.
+std::uint64_t Random::word() {
+  std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+double Random::uniform(double lower, double upper) {
+  return lower + (upper - lower) * std::ldexp(static_cast<double>(word() >> 11), -53);
+}
+
+double draw(const SlotSpec& slot, double span, Random& random) {
+  if (slot.kind == SlotKind::time) return random.uniform(0.0, 5.0);
+  if (slot.kind == SlotKind::held && random.word() % 3 == 0) return 0.0;
+  const bool bounded_below = std::isfinite(slot.range.lower), bounded_above = std::isfinite(slot.range.upper);
+  if (!bounded_below && !bounded_above) {
+    // Divisors stay a tenth of the span away from 0, so that difference quotients are meaningful.
+    return std::copysign(random.uniform(0.1 * span, span), random.uniform(-1.0, 1.0));
+  }
+  const double lower = bounded_below ? slot.range.lower : slot.range.upper - 3.0;
+  const double upper = bounded_above ? slot.range.upper : lower + 3.0;
+  // As far from the ends, which a difference quotient must not pass.
+  return random.uniform(lower + 0.1 * (upper - lower), upper - 0.1 * (upper - lower));
+}
+
+void draw_all(Bench<double>& bench, double span, Random& random) {
+  for (std::size_t at = 0; at < bench.values.size(); ++at) {
+    const SlotSpec& slot = bench.spec().slots[at % bench.size()];
+    bench.values[at] = draw(slot, span, random);
+    bench.bits[at] = random.word() % 2;
+  }
+}
+
+bool Result::writes(SlotKind kind) const {
+  return (phase == Phase::outputs && kind == SlotKind::output) ||
+         (phase == Phase::crossings && kind == SlotKind::crossing) ||
+         (phase == Phase::schedule && kind == SlotKind::alarm);
+}
+
+std::string Result::name(const Specification& spec) const {
+  const std::string slot_name = spec.slots[slot].name;
+  if (phase == Phase::rates) return "rate of " + slot_name;
+  if (phase == Phase::crossing) return "next " + slot_name + " at crossing " + spec.slots[crossing].name;
+  return is_handler(phase) ? "next " + slot_name : slot_name;
+}
+
+std::vector<Result> results(const Specification& spec, bool handlers) {
+  std::vector<Result> all;
+  for (int s = 0; s < static_cast<int>(spec.slots.size()); ++s) {
+    const SlotKind kind = spec.slots[s].kind;
+    const bool passed = std::ranges::find(spec.passed, s, &PassThrough::output) != spec.passed.end();
+    if (kind == SlotKind::output && !passed) all.push_back({Phase::outputs, -1, s});
+    if (kind == SlotKind::state) all.push_back({Phase::rates, -1, s});
+    if (kind == SlotKind::relation) all.push_back({Phase::relations, -1, s});
+    if (kind == SlotKind::crossing) all.push_back({Phase::crossings, -1, s});
+    if (kind == SlotKind::alarm) all.push_back({Phase::schedule, -1, s});
+    if (!handlers || (kind != SlotKind::state && kind != SlotKind::held)) continue;
+    if (spec.sampled()) all.push_back({Phase::sample, -1, s});
+    if (spec.has(SlotKind::alarm)) all.push_back({Phase::time, -1, s});
+    for (int c = 0; c < static_cast<int>(spec.slots.size()); ++c) {
+      if (spec.slots[c].kind == SlotKind::crossing) all.push_back({Phase::crossing, c, s});
+    }
+  }
+  return all;
+}
+
+bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+}  // namespace flyball::test

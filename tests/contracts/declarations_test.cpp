@@ -1,0 +1,74 @@
+// What every declaration must say.
+#include <set>
+
+#include "tests/catch.h"
+#include "tests/contracts/cases.h"
+
+namespace flyball::test {
+
+TEST_CASE("slots, ports and structure are named and explained, and slots have units") {
+  for (const Case& c : cases()) {
+    const BlockObject object = c.object();
+    INFO(c.type << " (" << c.label << ")");
+    const std::string& summary = object.type->summary;
+    CHECK((!summary.empty() && summary.back() == '.'));
+    for (const SlotSpec& slot : object.specification->slots) {
+      INFO("slot " << slot.name);
+      CHECK_FALSE(slot.name.empty());
+      CHECK_FALSE(slot.doc.empty());
+      if (slot.numeric()) CHECK_FALSE(slot.unit.empty());
+    }
+    for (const SlotSpec& slot : object.specification->absent) {
+      INFO("slot of another structure " << slot.name);
+      CHECK((!slot.name.empty() && !slot.doc.empty() && !slot.unit.empty()));
+    }
+    for (const PortSpec& port : object.specification->ports) {
+      INFO("port " << port.name);
+      CHECK_FALSE(port.doc.empty());
+      CHECK(port.slots.size() == (port.elements.empty() ? 1 : port.elements.size()));
+    }
+    for (const StructureSpec& key : object.specification->structure) {
+      INFO("key " << key.key);
+      CHECK((!key.key.empty() && !key.doc.empty() && !key.fallback.empty()));
+    }
+  }
+}
+
+TEST_CASE("a name stands for one port, and for one number of its kind") {
+  for (const Case& c : cases()) {
+    const BlockObject object = c.object();
+    std::set<std::string> ports;
+    for (const PortSpec& port : object.specification->ports) {
+      INFO(c.type << " (" << c.label << "): port " << port.name);
+      CHECK(ports.insert(port.name).second);
+    }
+    std::set<std::pair<bool, std::string>> slots;
+    for (const SlotSpec& slot : object.specification->slots) {
+      INFO(c.type << " (" << c.label << "): slot " << slot.name);
+      CHECK(slots.insert({slot.kind == SlotKind::param, slot.name}).second);
+    }
+  }
+}
+
+TEST_CASE("defaults lie in their ranges") {
+  for (const Case& c : cases()) {
+    const BlockObject object = c.object();
+    for (const SlotSpec& slot : object.specification->slots) {
+      if (slot.kind != SlotKind::param) continue;
+      INFO(c.type << " (" << c.label << "): parameter " << slot.name);
+      CHECK(slot.range.contains(slot.fallback));
+    }
+  }
+}
+
+TEST_CASE("block types are found by their names, which are unique") {
+  std::set<std::string> names;
+  for (const BlockType& type : catalogue()) {
+    INFO(type.name);
+    CHECK(names.insert(type.name).second);
+    CHECK(find_block_type(type.name) == &type);
+  }
+  CHECK(find_block_type("Gian") == nullptr);
+}
+
+}  // namespace flyball::test
