@@ -26,9 +26,6 @@ StepperOptions stepper_options(const SimulationSettings& settings) {
   return options;
 }
 
-/// Times this close are one instant: rounding of an alarm's own arithmetic, and of a located root.
-double same_instant(double t) { return 16.0 * (std::nextafter(std::fabs(t), never) - std::fabs(t)); }
-
 void require_in_range(const std::string& name, double value, const Range& range) {
   if (range.contains(value)) return;
   throw std::invalid_argument(fmt::format("{} is {}, outside its range {}{}, {}{}", name, value,

@@ -75,7 +75,7 @@ double Zeros::locate(double t0, double t1, const Stepper<double>& stepper) {
       scale_[k] = std::max(scale_[k], std::fabs(z));
       return z;
     });
-    if (found >= end) {  // at the end already: simultaneous with what was found there
+    if (end - found <= same_instant(end)) {  // simultaneous with what was found there
       ++next;
       continue;
     }

@@ -1,10 +1,17 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "solvers/workspace.h"
 
 namespace flyball {
+
+/// Times this close are one instant: rounding of an alarm's own arithmetic, and of a located root.
+inline double same_instant(double t) {
+  const double size = std::fabs(t);
+  return 16.0 * (std::nextafter(size, never) - size);
+}
 
 /// Watches the relations and crossings of a run for changes of sign, and finds when they happen.
 class Zeros {
