@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "solvers/cvode.h"
 #include "solvers/dormand_prince.h"
 #include "solvers/fixed_step.h"
 
@@ -24,6 +25,8 @@ constexpr Method methods[] = {
     {"dp5", make<DormandPrince<double>>},
     {"rk4", make<RungeKutta4<double>>},
     {"euler", make<Euler<double>>},
+    {"adams", make_adams},
+    {"bdf", make_bdf},
 };
 
 }  // namespace

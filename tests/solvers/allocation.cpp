@@ -4,7 +4,7 @@
 
 #include "solvers/stepper.h"
 #include "tests/catch.h"
-#include "tests/solvers/problems.h"
+#include "tests/solvers/stiff_systems.h"
 
 using namespace flyball;
 using namespace flyball::test;
@@ -27,10 +27,7 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 TEST_CASE("Steps and restarts do not allocate after the first") {
   for (const std::string& method : stepper_methods()) {
     INFO(method);
-    auto system = make_system(2, [](double, const double* x, double* dx) {
-      dx[0] = x[1];
-      dx[1] = -x[0];
-    });
+    auto system = harmonic();
     const auto stepper = make_stepper(method, system, {.max_step = 1.0, .fixed_step = 0.01});
     StepMemory memory;
     double x[] = {1.0, 0.0};
