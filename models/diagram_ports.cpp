@@ -1,0 +1,128 @@
+#include "models/diagram_ports.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "models/language/messages.h"
+
+namespace flyball {
+namespace {
+
+std::vector<std::string> port_names(const Specification& spec, bool is_input) {
+  std::vector<std::string> names;
+  for (const PortSpec& port : spec.ports) {
+    if (port.is_input == is_input) names.push_back(port.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+Piece Piece::trimmed() const {
+  constexpr std::string_view space = " \t\r\n";
+  Piece result = *this;
+  const std::size_t first = std::min(text.find_first_not_of(space), text.size());
+  result.offset += first;
+  result.text.remove_prefix(first);
+  result.text = result.text.substr(0, result.text.find_last_not_of(space) + 1);
+  return result;
+}
+
+std::vector<Piece> Piece::split(std::string_view separator) const {
+  std::vector<Piece> result;
+  std::size_t start = 0;
+  while (true) {
+    const std::size_t end = std::min(text.find(separator, start), text.size());
+    result.push_back(Piece{string, offset + start, text.substr(start, end - start)}.trimmed());
+    if (end == text.size()) return result;
+    start = end + separator.size();
+  }
+}
+
+int PortNames::block(const Piece& piece) {
+  const std::string_view name = piece.text.substr(0, piece.text.find('.'));
+  const int found = blocks_.find(name);
+  if (found >= 0) return found;
+  report_.error_inside(
+      *piece.string, piece.offset,
+      name.empty() ? message::expected_block() : message::unknown_block(name, blocks_.names()));
+  return -1;
+}
+
+std::optional<Port> PortNames::port(const Piece& piece, bool is_input) {
+  Port result;
+  result.instance = block(piece);
+  result.written = piece;
+  if (result.instance < 0 || blocks_.form(result.instance) == nullptr) return std::nullopt;
+  const std::size_t dot = piece.text.find('.');
+  if (dot == std::string_view::npos) {
+    result.spec = only_port(piece, result.instance, is_input);
+    return result.spec == nullptr ? std::nullopt : std::optional(result);
+  }
+  const std::string_view rest = piece.text.substr(dot + 1);
+  const std::size_t second = rest.find('.');
+  const std::string_view name = rest.substr(0, second);
+  result.spec = named_port({piece.string, piece.offset + dot + 1, rest}, result.instance, name, is_input);
+  if (result.spec == nullptr) return std::nullopt;
+  if (second == std::string_view::npos) return result;
+  const Piece element{piece.string, piece.offset + dot + second + 2, rest.substr(second + 1)};
+  return select_element(element, element.text, result) ? std::optional(result) : std::nullopt;
+}
+
+const PortSpec* PortNames::only_port(const Piece& piece, int instance, bool is_input) {
+  const Specification& spec = blocks_.form(instance)->specification();
+  const PortSpec* first = nullptr;
+  const PortSpec* required = nullptr;
+  int ports = 0;
+  int needed = 0;
+  for (const PortSpec& port : spec.ports) {
+    if (port.is_input != is_input) continue;
+    if (ports++ == 0) first = &port;
+    if (is_input && spec.slots[port.slots[0]].optional) continue;
+    if (needed++ == 0) required = &port;
+  }
+  if (ports == 1) return first;
+  if (is_input && needed == 1) return required;
+  const std::string& name = blocks_.instances()[instance].name;
+  const std::string& type = blocks_.form(instance)->object->type->name;
+  report_.error_inside(*piece.string, piece.offset,
+                       ports == 0 ? message::no_port(name, type, is_input)
+                                  : message::several_ports(name, type, is_input, port_names(spec, is_input)));
+  return nullptr;
+}
+
+const PortSpec* PortNames::named_port(const Piece& piece, int instance, std::string_view name,
+                                      bool is_input) {
+  const Specification& spec = blocks_.form(instance)->specification();
+  const auto found = std::ranges::find_if(
+      spec.ports, [&](const PortSpec& port) { return port.is_input == is_input && port.name == name; });
+  if (found != spec.ports.end()) return &*found;
+  const std::string& block = blocks_.instances()[instance].name;
+  const auto candidates = port_names(spec, is_input);
+  report_.error_inside(*piece.string, piece.offset,
+                       spec.port(name) != nullptr
+                           ? message::wrong_direction(block, name, is_input, candidates)
+                           : message::unknown_port(block, name, is_input, candidates));
+  return nullptr;
+}
+
+bool PortNames::select_element(const Piece& piece, std::string_view name, Port& port) {
+  const auto& elements = port.spec->elements;
+  const auto found = std::ranges::find(elements, name);
+  port.element = static_cast<int>(found - elements.begin());
+  if (found != elements.end()) return true;
+  report_.error_inside(*piece.string, piece.offset,
+                       message::unknown_element(
+                           blocks_.instances()[port.instance].name + "." + port.spec->name, name, elements));
+  return false;
+}
+
+std::string PortNames::name(const Port& port, int k) const {
+  const std::string& block = blocks_.instances()[port.instance].name;
+  const int element = port.element >= 0 ? port.element : k;
+  if (port.spec->elements.empty() || element < 0) return fmt::format("{}.{}", block, port.spec->name);
+  return fmt::format("{}.{}.{}", block, port.spec->name, port.spec->elements[element]);
+}
+
+}  // namespace flyball

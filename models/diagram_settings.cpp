@@ -1,0 +1,164 @@
+#include "models/diagram_settings.h"
+
+#include <fmt/format.h>
+
+#include "models/language/messages.h"
+
+namespace flyball {
+namespace {
+
+using Kind = TomlValue::Kind;
+
+bool is_entry(const TomlValue& value) { return value.numeric() || value.is(Kind::string); }
+
+/// A text that differs whenever the value does.
+void append(std::string& result, const TomlValue& value) {
+  switch (value.kind) {
+    case Kind::boolean:
+      result += value.flag ? 't' : 'f';
+      break;
+    case Kind::integer:
+      fmt::format_to(std::back_inserter(result), "i{}", value.integer);
+      break;
+    case Kind::number:
+      fmt::format_to(std::back_inserter(result), "n{}", value.number);
+      break;
+    case Kind::string:
+      fmt::format_to(std::back_inserter(result), "s{}:{}", value.text.size(), value.text);
+      break;
+    default:
+      result += '[';
+      for (const TomlValue& item : value.items) append(result, item);
+      result += ']';
+  }
+}
+
+}  // namespace
+
+const TomlValue* TableSettings::find(std::string_view key, Use use) const {
+  auto asked = uses_.find(key);
+  if (asked == uses_.end()) asked = uses_.emplace(key, 0).first;
+  asked->second |= use;
+  return block_.value.find(key);
+}
+
+bool TableSettings::given(std::string_view key) const { return find(key, Use{}) != nullptr; }
+
+std::optional<std::string> TableSettings::text(std::string_view key) {
+  const TomlValue* value = find(key, as_written);
+  if (value == nullptr || !report_.expect(*value, Kind::string, "a text in quotes")) return std::nullopt;
+  return value->text;
+}
+
+std::optional<long> TableSettings::integer(std::string_view key) {
+  const TomlValue* value = find(key, as_whole);
+  if (value == nullptr) return std::nullopt;
+  if (value->is(Kind::string)) {
+    const auto whole = parameters_.exact(*value, "1");
+    if (whole && whole->denominator() == 1) return whole->numerator();
+    if (whole) report_.error(*value, message::not_whole(whole->value()));
+    return std::nullopt;
+  }
+  if (!report_.expect(*value, Kind::integer, "a whole number")) return std::nullopt;
+  return value->integer;
+}
+
+std::optional<bool> TableSettings::flag(std::string_view key) {
+  const TomlValue* value = find(key, as_written);
+  if (value == nullptr || !report_.expect(*value, Kind::boolean, "true or false")) return std::nullopt;
+  return value->flag;
+}
+
+std::optional<Rational> TableSettings::exact(std::string_view key) {
+  const TomlValue* value = find(key, as_time);
+  // Structure that is read exactly is time: sample times and offsets.
+  return value == nullptr ? std::nullopt : parameters_.exact(*value, "s");
+}
+
+std::optional<std::vector<std::string>> TableSettings::list(std::string_view key) {
+  const TomlValue* value = find(key, as_written);
+  if (value == nullptr || !report_.expect(*value, Kind::list, "a list of texts")) return std::nullopt;
+  std::vector<std::string> result;
+  for (const TomlValue& item : value->items) {
+    if (!report_.expect(item, Kind::string, "a text in quotes")) return std::nullopt;
+    result.push_back(item.text);
+  }
+  return result;
+}
+
+std::optional<Shape> TableSettings::shape(std::string_view key) {
+  const TomlValue* value = find(key, as_shape);
+  if (value == nullptr || !report_.expect(*value, Kind::list, "a list of numbers")) return std::nullopt;
+  if (value->items.empty()) {
+    report_.error(*value, message::empty_list());
+    return std::nullopt;
+  }
+  const bool table = value->items[0].is(Kind::list);
+  Shape result{table ? static_cast<int>(value->items.size()) : 1, 0, {}};
+  const auto row = [&](const TomlValue& numbers) {
+    for (const TomlValue& item : numbers.items) {
+      if (!is_entry(item))
+        return report_.error(item, message::wrong_type("a number or an expression", item)), false;
+      result.zero.push_back(item.numeric() && item.number == 0.0);
+    }
+    return true;
+  };
+  result.columns = static_cast<int>((table ? value->items[0] : *value).items.size());
+  if (!table) return row(*value) ? std::optional(result) : std::nullopt;
+  for (const TomlValue& item : value->items) {
+    if (!report_.expect(item, Kind::list, "a list of numbers") || !row(item)) return std::nullopt;
+    if (static_cast<int>(item.items.size()) == result.columns) continue;
+    report_.error(item, message::ragged_table(result.columns, item.items.size()));
+    return std::nullopt;
+  }
+  return result;
+}
+
+std::shared_ptr<const Formula> TableSettings::formula(std::string_view key,
+                                                      const std::vector<std::string>& inputs) {
+  const TomlValue* value = find(key, as_written);
+  if (value == nullptr || !report_.expect(*value, Kind::string, "an expression in quotes")) return nullptr;
+  auto parsed = parameters_.formula(*value, inputs);
+  return parsed ? std::make_shared<const Formula>(*std::move(parsed)) : nullptr;
+}
+
+void TableSettings::refuse(std::string_view key, std::string message) {
+  if (const TomlValue* value = block_.value.find(key)) {
+    report_.error(*value, message::setting_refused(key, message));
+  } else {
+    report_.error(block_.at, message::block_refused(block_.key, message));
+  }
+}
+
+void TableSettings::append_exact(std::string& result, const TomlValue& value, const std::string& unit) {
+  const auto number = parameters_.exact(value, unit);
+  if (!number) return;
+  // 3.0 is not taken where a whole number is wanted, but is as a time.
+  const char kind = value.is(Kind::integer) ? 'i' : 'x';
+  fmt::format_to(std::back_inserter(result), "{}{}/{}", kind, number->numerator(), number->denominator());
+}
+
+void TableSettings::append_shape(std::string& result, std::string_view key) {
+  const auto form = shape(key);
+  if (!form) return;
+  fmt::format_to(std::back_inserter(result), "{}x{}:", form->rows, form->columns);
+  for (const bool zero : form->zero) result += zero ? '0' : '1';
+}
+
+std::string TableSettings::structure(const Uses& uses) {
+  std::string result;
+  for (const auto& [key, use] : uses) {
+    const TomlValue* value = block_.value.find(key);
+    if (value == nullptr) continue;
+    result += key;
+    result += '=';
+    if ((use & as_written) != 0) append(result, *value);
+    if ((use & as_time) != 0) append_exact(result, *value, "s");
+    if ((use & as_whole) != 0) append_exact(result, *value, "1");
+    if ((use & as_shape) != 0) append_shape(result, key);
+    result += ';';
+  }
+  return result;
+}
+
+}  // namespace flyball

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "blocks/settings.h"
+#include "models/diagram_parameters.h"
+#include "models/diagram_report.h"
+
+namespace flyball {
+
+/// The settings of one block, from its table in a model file.
+class TableSettings : public Settings {
+ public:
+  /// How a key was read: more than one bit may be set.
+  enum Use : unsigned { as_written = 1, as_time = 2, as_whole = 4, as_shape = 8 };
+  using Uses = std::map<std::string, unsigned, std::less<>>;
+
+  TableSettings(const TomlEntry& block, ModelParameters& parameters, Report& report)
+      : block_(block), parameters_(parameters), report_(report) {}
+
+  bool given(std::string_view key) const override;
+  std::optional<std::string> text(std::string_view key) override;
+  std::optional<long> integer(std::string_view key) override;
+  std::optional<bool> flag(std::string_view key) override;
+  std::optional<Rational> exact(std::string_view key) override;
+  std::optional<std::vector<std::string>> list(std::string_view key) override;
+  std::optional<Shape> shape(std::string_view key) override;
+  std::shared_ptr<const Formula> formula(std::string_view key,
+                                         const std::vector<std::string>& inputs) override;
+  void refuse(std::string_view key, std::string message) override;
+
+  /// All that the block's constructor has asked for: its structure depends on nothing else.
+  const Uses& uses() const { return uses_; }
+  /// The answers to `uses` as one text: blocks with equal texts have equal structure.
+  std::string structure(const Uses& uses);
+
+ private:
+  const TomlValue* find(std::string_view key, Use use) const;
+  void append_exact(std::string& result, const TomlValue& value, const std::string& unit);
+  void append_shape(std::string& result, std::string_view key);
+
+  const TomlEntry& block_;
+  ModelParameters& parameters_;
+  Report& report_;
+  mutable Uses uses_;
+};
+
+}  // namespace flyball

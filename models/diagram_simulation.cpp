@@ -1,0 +1,66 @@
+#include "models/diagram_simulation.h"
+
+#include <algorithm>
+
+#include "models/language/messages.h"
+
+namespace flyball {
+namespace {
+
+const std::vector<std::string>& methods() {
+  static const std::vector<std::string> names{"auto", "dp5", "rk4", "euler", "adams", "bdf"};
+  return names;
+}
+
+class SimulationReader {
+ public:
+  SimulationReader(ModelParameters& parameters, Report& report) : parameters_(parameters), report_(report) {}
+
+  SimulationSettings read(const TomlValue& section) {
+    report_.check_keys(section, "[simulation]", {"stop", "solver", "log_interval"});
+    settings_.stop = above_zero(section, "stop", "s").value_or(settings_.stop);
+    if (const TomlValue* solver = section.find("solver")) read_solver(*solver);
+    if (above_zero(section, "log_interval", "s")) {
+      settings_.log_interval = parameters_.exact(*section.find("log_interval"), "s");
+    }
+    return settings_;
+  }
+
+ private:
+  void read_solver(const TomlValue& solver) {
+    if (!report_.expect(solver, TomlValue::Kind::table, "a table such as { method = \"dp5\" }")) return;
+    report_.check_keys(solver, "solver", {"method", "rtol", "atol", "max_step", "step"});
+    if (const TomlValue* method = solver.find("method")) read_method(*method);
+    settings_.rtol = above_zero(solver, "rtol", "1").value_or(settings_.rtol);
+    settings_.atol = above_zero(solver, "atol", "1").value_or(settings_.atol);
+    settings_.max_step = above_zero(solver, "max_step", "s");
+    settings_.step = above_zero(solver, "step", "s");
+  }
+
+  void read_method(const TomlValue& method) {
+    if (!report_.expect(method, TomlValue::Kind::string, "the name of a method in quotes")) return;
+    settings_.method = method.text;
+    if (std::ranges::find(methods(), method.text) != methods().end()) return;
+    report_.error_inside(method, 0, message::unknown_method(method.text, methods()));
+  }
+
+  std::optional<double> above_zero(const TomlValue& table, std::string_view key, const std::string& unit) {
+    const TomlValue* value = table.find(key);
+    const auto number = value == nullptr ? std::nullopt : parameters_.fixed(*value, unit);
+    if (!number || *number > 0.0) return number;
+    report_.error(*value, message::out_of_range(key, *number, positive, unit));
+    return std::nullopt;
+  }
+
+  ModelParameters& parameters_;
+  Report& report_;
+  SimulationSettings settings_;
+};
+
+}  // namespace
+
+SimulationSettings read_simulation(const TomlValue& section, ModelParameters& parameters, Report& report) {
+  return SimulationReader(parameters, report).read(section);
+}
+
+}  // namespace flyball

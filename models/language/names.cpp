@@ -1,0 +1,17 @@
+#include "models/language/names.h"
+
+#include <cctype>
+
+namespace flyball {
+
+std::string_view leading_name(std::string_view text) {
+  std::size_t end = 0;
+  const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  while (end < text.size() && (letter(text[end]) || (end > 0 && digit(text[end])))) ++end;
+  return text.substr(0, end);
+}
+
+bool is_name(std::string_view text) { return !text.empty() && leading_name(text).size() == text.size(); }
+
+}  // namespace flyball
