@@ -40,6 +40,9 @@ std::optional<Rational> Rational::fraction(std::int64_t numerator, std::int64_t 
   if (denominator == 0) return std::nullopt;
   const Wide sign = denominator < 0 ? -1 : 1;
   const Wide divisor = sign * gcd(numerator, denominator);
+  // The least number of 64 bits has no opposite.
+  constexpr Wide most = std::numeric_limits<std::int64_t>::max();
+  if (numerator / divisor > most || denominator / divisor > most) return std::nullopt;
   Rational result;
   result.numerator_ = static_cast<std::int64_t>(numerator / divisor);
   result.denominator_ = static_cast<std::int64_t>(denominator / divisor);

@@ -12,7 +12,7 @@ class Rational {
   constexpr Rational() = default;
   constexpr Rational(std::int64_t whole) : numerator_(whole) {}
 
-  /// Nothing when the denominator is zero.
+  /// Nothing when the denominator is zero, or the result does not fit 64 bits.
   static std::optional<Rational> fraction(std::int64_t numerator, std::int64_t denominator);
 
   std::int64_t numerator() const { return numerator_; }

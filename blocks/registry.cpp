@@ -160,12 +160,12 @@ BlockObject BlockType::create(Settings* settings) const {
   const std::shared_ptr<const Block> block = construct(settings);
   object.specification = &block->specification();
   object.self = std::shared_ptr<const void>(block, self(*block));
-  check_methods(*this, *object.specification);
-  check_declarations(*this, *object.specification);
   if (object.specification->refused) {
     if (settings == nullptr) throw std::logic_error(fmt::format("block {}: refuses its own defaults", name));
     return object;
   }
+  check_methods(*this, *object.specification);
+  check_declarations(*this, *object.specification);
   if (differentiable) {
     Deriver(*this, object).run(object);
   } else {

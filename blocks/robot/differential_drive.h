@@ -5,7 +5,7 @@ namespace flyball {
 
 struct DifferentialDrive : Block {
   static constexpr auto summary = "Kinematics of a robot with two driven wheels, rolling without slip.";
-  Param wheel_diameter = param("wheel_diameter", 0.02, "m", positive, "diameter of a wheel");
+  Param wheel_diameter = param("wheel_diameter", 0.04, "m", positive, "diameter of a wheel");
   Param track_width = param("track_width", 0.054, "m", positive, "distance between the wheels");
   Param initial_x = param("initial_x", 0.0, "m", any, "x at the start");
   Param initial_y = param("initial_y", 0.0, "m", any, "y at the start");

@@ -102,6 +102,13 @@ class Bench {
   std::vector<int> index_;
 };
 
+/// A number that the compiler does not know: it would fold functions of a constant with a rounding of its
+/// own.
+inline double opaque(double x) {
+  volatile double hidden = x;
+  return hidden;
+}
+
 inline BlockObject create(std::string_view type, Keys keys = {}) {
   const BlockType* found = find_block_type(type);
   if (found == nullptr) throw std::invalid_argument("no block type " + std::string(type));
@@ -133,11 +140,13 @@ class Device {
   double rate(std::string_view state) { return bench_.rates[slot(state)]; }
   void time(double t) { bench_.values[0] = t; }
 
-  /// Sets the bits of the relations by their values, then computes outputs and rates.
+  /// Sets the bits of the relations by their values (0 changes nothing), then computes all that is no
+  /// handler.
   Device& update() {
     bench_.run(Phase::relations);
     for (int s = 0; s < bench_.size(); ++s) {
-      if (bench_.spec().slots[s].kind == SlotKind::relation) bench_.bits[s] = bench_.values[s] > 0.0;
+      if (bench_.spec().slots[s].kind != SlotKind::relation || bench_.values[s] == 0.0) continue;
+      bench_.bits[s] = bench_.values[s] > 0.0;
     }
     bench_.run(Phase::outputs);
     bench_.run(Phase::rates);
