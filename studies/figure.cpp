@@ -1,0 +1,104 @@
+#include "studies/figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace flyball {
+namespace {
+
+// More lines than this cannot be told apart by a legend.
+constexpr std::size_t longest_legend = 12;
+
+std::string axis_label(const std::string& name, const std::string& unit) {
+  if (unit.empty() || unit == "any" || unit == "1") return name;
+  return name.empty() ? fmt::format("[{}]", unit) : fmt::format("{} [{}]", name, unit);
+}
+
+constexpr std::string_view style = R"(if (!exists("format")) format = 'svg'
+if (!exists("figure")) figure = stem . '.' . format
+if (format eq 'png') {{
+  set terminal pngcairo size 1200,{height} font 'DejaVu Sans,13' background '#ffffff'
+}} else {{
+  set terminal svg size 900,{svg_height} font 'DejaVu Sans,12' background '#ffffff'
+}}
+set output figure
+
+# Colours that people with any colour vision tell apart (Okabe, Ito 2008).
+set linetype 1 lc rgb '#0072b2' lw 2
+set linetype 2 lc rgb '#d55e00' lw 2
+set linetype 3 lc rgb '#009e73' lw 2
+set linetype 4 lc rgb '#cc79a7' lw 2
+set linetype 5 lc rgb '#e69f00' lw 2
+set linetype 6 lc rgb '#56b4e9' lw 2
+set linetype cycle 6
+set border 3 lc rgb '#555555'
+set tics nomirror out textcolor rgb '#333333'
+set grid lc rgb '#dddddd' lt 1 lw 1
+set key outside right top Left reverse samplen 2 noenhanced
+set datafile separator comma
+)";
+
+std::string panel_script(const Panel& panel, bool last) {
+  const bool legend = panel.curves.size() > 1 && panel.curves.size() <= longest_legend;
+  std::string script = fmt::format("\nset ylabel {} noenhanced\n", gnuplot_quoted(panel.label));
+  if (last) script += "set xlabel 'time [s]'\nset format x '%g'\n";
+  script += "plot";
+  for (const Curve& curve : panel.curves) {
+    const bool is_first = &curve == &panel.curves.front();
+    const std::string value = curve.factor == 1.0 ? fmt::format("{}", curve.column)
+                                                  : fmt::format("(${}*{})", curve.column, curve.factor);
+    script += fmt::format("{}{} using 1:{} skip 1 with lines {}", is_first ? " " : ", \\\n     ",
+                          gnuplot_quoted(curve.csv), value,
+                          legend ? "title " + gnuplot_quoted(curve.label) : "notitle");
+  }
+  return script + '\n';
+}
+
+}  // namespace
+
+std::string gnuplot_quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'') quoted += '\'';
+    quoted += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  return quoted + '\'';
+}
+
+Figure figure_of(const std::vector<LogColumn>& columns, const std::string& title, const std::string& csv) {
+  Figure figure{title, {}};
+  std::vector<std::string> units;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const auto same = std::ranges::find(units, columns[c].unit);
+    const auto panel = static_cast<std::size_t>(same - units.begin());
+    if (same == units.end()) {
+      units.push_back(columns[c].unit);
+      figure.panels.emplace_back();
+    }
+    figure.panels[panel].curves.push_back({csv, static_cast<int>(c) + 2, columns[c].name});
+  }
+  for (std::size_t p = 0; p < units.size(); ++p) {
+    const auto& curves = figure.panels[p].curves;
+    figure.panels[p].label = axis_label(curves.size() == 1 ? curves[0].label : "", units[p]);
+  }
+  return figure;
+}
+
+std::string gnuplot_script(const Figure& figure, const std::string& stem) {
+  const auto panels = static_cast<int>(figure.panels.size());
+  const int height = std::max(420, 300 * panels + 120);
+  std::string script =
+      fmt::format("# Run in this folder:  gnuplot FILE  or  gnuplot -e \"format = 'png'\" FILE\nstem = {}\n",
+                  gnuplot_quoted(stem));
+  script += fmt::format(style, fmt::arg("height", height), fmt::arg("svg_height", height * 3 / 4));
+  if (figure.end > 0.0) script += fmt::format("set xrange [0:{}]\n", figure.end);
+  script +=
+      fmt::format("set multiplot layout {},1 title {} noenhanced\n", panels, gnuplot_quoted(figure.title));
+  script += "set lmargin 11\nset rmargin 24\n";
+  if (panels > 1) script += "set format x ''\n";
+  for (const Panel& panel : figure.panels) script += panel_script(panel, &panel == &figure.panels.back());
+  return script + "\nunset multiplot\n";
+}
+
+}  // namespace flyball

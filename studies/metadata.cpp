@@ -1,0 +1,65 @@
+#include "studies/metadata.h"
+
+#include <nlohmann/json.hpp>
+
+#include "studies/hash.h"
+#include "studies/versions.h"
+
+namespace flyball {
+namespace {
+
+// Keys in the order in which they are written here: people read these files, too.
+using Json = nlohmann::ordered_json;
+
+Json model_of(const RunResult& result, const RunInputs& inputs) {
+  Json model = {{"file", inputs.model_file},
+                {"title", result.plan->diagram->title},
+                {"source", result.plan->diagram->source},
+                {"hash", fingerprint(inputs.model_text)},
+                {"set", Json::object()}};
+  for (const Override& value : inputs.overrides) model["set"][value.name] = value.value;
+  return model;
+}
+
+Json solver_of(const RunResult& result) {
+  const StepperStatistics& steps = result.statistics.stepper;
+  return {{"method", result.method},
+          {"asked", result.settings.method},
+          {"rtol", result.settings.rtol},
+          {"atol", result.settings.atol},
+          {"max_step", result.max_step},
+          {"statistics",
+           {{"steps", steps.steps},
+            {"rejected", steps.rejected},
+            {"rate_evaluations", steps.rate_evaluations},
+            {"jacobians", steps.jacobians},
+            {"restarts", steps.restarts},
+            {"hits", result.statistics.hits},
+            {"alarms", result.statistics.alarms},
+            {"events", result.statistics.events}}}};
+}
+
+Json columns_of(const Log& log) {
+  Json columns = Json::array({{{"name", "time"}, {"unit", "s"}}});
+  for (const LogColumn& column : log.columns()) {
+    columns.push_back({{"name", column.name}, {"unit", column.unit}});
+  }
+  return columns;
+}
+
+}  // namespace
+
+std::string metadata_json(const RunResult& result, const RunInputs& inputs, std::string_view csv_name,
+                          std::string_view csv) {
+  Json json = {
+      {"flyball", flyball_version()},      {"status", to_string(result.status)}, {"reason", result.reason},
+      {"model", model_of(result, inputs)}, {"stop", result.settings.stop},       {"end", result.end},
+      {"wall_time", result.wall_time},     {"solver", solver_of(result)},        {"rows", result.log.rows()},
+      {"columns", columns_of(result.log)}, {"libraries", Json::object()}};
+  for (const Version& library : library_versions()) json["libraries"][library.name] = library.number;
+  if (!csv_name.empty()) json["csv"] = {{"file", csv_name}, {"checksum", fingerprint(csv)}};
+  // A path need not be UTF-8, JSON must be.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace flyball

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "solvers/simulator.h"
+
+namespace flyball {
+
+/// How a run ended.
+enum class RunStatus { finished, stopped, interrupted };
+
+/// "finished", "stopped", "interrupted"
+std::string to_string(RunStatus status);
+
+/// All that is known after a run, whatever its end: what was logged before an error is there.
+struct RunResult {
+  std::shared_ptr<const Plan> plan;
+  SimulationSettings settings;
+  Log log;
+  RunStatistics statistics = {};
+  std::string method = {};  // that `auto` stood for
+  double max_step = 0.0;    // s
+  double end = 0.0;         // simulated time that was reached, s
+  double wall_time = 0.0;   // s
+  RunStatus status = RunStatus::finished;
+  std::string reason = {};  // of a stop
+};
+
+/// Runs a plan once. `progress` gets the part done, from 0 to 1, and interrupts the run by giving false.
+/// A SimulationError ends up in the result.
+RunResult run_plan(std::shared_ptr<const Plan> plan, const SimulationSettings& settings, LogOptions log = {},
+                   const std::function<bool(double)>& progress = {});
+
+}  // namespace flyball

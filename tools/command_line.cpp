@@ -1,0 +1,180 @@
+#include "tools/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <new>
+
+#include "solvers/stepper.h"
+#include "studies/file.h"
+#include "studies/versions.h"
+#include "tools/commands.h"
+#include "tools/console.h"
+#include "tools/quantity_argument.h"
+
+namespace flyball {
+namespace {
+
+/// Calls `parse` and turns its complaint into one about the option.
+auto checked(const std::string& option, auto&& parse) {
+  try {
+    return parse();
+  } catch (const UsageError& error) {
+    throw CLI::ValidationError(option, error.what());
+  }
+}
+
+void add_overrides(CLI::App* command, std::vector<Override>& overrides) {
+  const auto read = [&overrides](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      const std::size_t equals = text.find('=');
+      if (equals == std::string::npos || equals == 0) {
+        throw CLI::ValidationError("--set", fmt::format("expected NAME=value, found \"{}\"", text));
+      }
+      overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    }
+  };
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--set", read, "A parameter, or block.parameter; the value may be an expression with units")
+      ->type_name("NAME=value")
+      ->allow_extra_args(false);
+}
+
+void add_positive(CLI::App* command, const std::string& option, std::optional<double>& value,
+                  const std::string& unit, const std::string& doc) {
+  const auto read = [=, &value](const std::string& text) {
+    value = checked(option, [&] { return parse_positive(text, unit); });
+  };
+  command->add_option_function<std::string>(option, read, doc)->type_name(unit == "1" ? "NUMBER" : "TIME");
+}
+
+void add_solver_options(CLI::App* command, RunOptions& options) {
+  add_positive(command, "--stop", options.stop, "s", "End of the run, such as 20 or \"200 ms\"");
+  std::vector<std::string> methods = stepper_methods();
+  methods.insert(methods.begin(), "auto");
+  command->add_option("--solver", options.method, "Method of integration")
+      ->check(CLI::IsMember(methods))
+      ->type_name("METHOD");
+  add_positive(command, "--rtol", options.rtol, "1", "Relative tolerance");
+  add_positive(command, "--atol", options.atol, "1", "Absolute tolerance");
+  add_positive(command, "--max-step", options.max_step, "s", "Longest step of a variable-step method");
+  add_positive(command, "--step", options.step, "s", "Step of a fixed-step method");
+  const auto read_interval = [&options](const std::string& text) {
+    options.log_interval = checked("--log-interval", [&] { return parse_positive_exact(text, "s"); });
+  };
+  command
+      ->add_option_function<std::string>("--log-interval", read_interval,
+                                         "Time between rows, such as \"10 ms\"")
+      ->type_name("TIME");
+}
+
+void add_output(CLI::App* command, RunOptions& options) {
+  const auto is_csv_file = [](const std::string& name) -> std::string {
+    const bool has_control = std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < ' '; });
+    const std::filesystem::path path(name);
+    if (path.extension() == ".csv" && !has_control) return {};
+    return fmt::format("expected the name of a .csv file, found \"{}\"", name);
+  };
+  command
+      ->add_option("-o,--output", options.output,
+                   "Where to write the results; .json, .gp, .svg and .png stand beside it")
+      ->type_name("FILE.csv")
+      ->check(is_csv_file);
+  const std::map<std::string, EventRows> rows{
+      {"both", EventRows::both}, {"after", EventRows::after}, {"none", EventRows::none}};
+  command
+      ->add_option("--event-rows", options.event_rows,
+                   "Rows at jumps besides the asked times: both sides, after, none")
+      ->transform(CLI::CheckedTransformer(rows, CLI::ignore_case))
+      ->type_name("ROWS");
+}
+
+CLI::App* add_run(CLI::App& app, RunOptions& options) {
+  CLI::App* command = app.add_subcommand("run", "Run a model and write its results");
+  command->add_option("MODEL", options.model, "Model file")->required()->type_name("FILE");
+  add_output(command, options);
+  add_overrides(command, options.overrides);
+  add_solver_options(command, options);
+  command->add_flag("--json", options.json, "Print the summary as JSON");
+  command->add_flag("-q,--quiet", options.quiet, "Print errors only");
+  command->footer(
+      "Example:\n"
+      "  flyball run models/line_arc/arc_error_loop.toml --set K_gamma=0.8 --set 'V=400 mm/s' --output "
+      "arc.csv");
+  return command;
+}
+
+CLI::App* add_check(CLI::App& app, CheckOptions& options) {
+  CLI::App* command = app.add_subcommand("check", "Check models and list all that is wrong with them");
+  command->add_option("MODEL", options.models, "Model files")->required()->type_name("FILE");
+  add_overrides(command, options.overrides);
+  command->add_flag("--json", options.json, "Print the findings as JSON");
+  command->footer("Example:\n  flyball check models/*/*.toml");
+  return command;
+}
+
+CLI::App* add_blocks(CLI::App& app, BlocksOptions& options) {
+  CLI::App* command = app.add_subcommand("blocks", "List the blocks, or show the reference page of one");
+  command->add_option("NAME", options.name, "Block type")->type_name("NAME");
+  command->add_option("--markdown", options.markdown, "Write the whole reference, a page a block")
+      ->type_name("DIR");
+  command->add_flag("--json", options.json, "Print the declarations as JSON");
+  command->footer("Example:\n  flyball blocks PID");
+  return command;
+}
+
+/// CLI11 writes help and errors to the streams that it is given.
+int explain(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream out, err;
+  const int status = app.exit(error, out, err);
+  print(out.str());
+  complain(err.str());
+  return status == 0 ? exit_done : exit_usage;
+}
+
+int parse_and_run(int argc, const char* const* argv) {
+  CLI::App app("Flyball simulates block diagrams that are written as text.", "flyball");
+  RunOptions run;
+  CheckOptions check;
+  BlocksOptions blocks;
+  const CLI::App* run_app = add_run(app, run);
+  const CLI::App* check_app = add_check(app, check);
+  add_blocks(app, blocks);
+  app.set_version_flag("--version", "flyball " + flyball_version());
+  app.require_subcommand(1);
+  app.footer("Example:\n  flyball run MODEL.toml --output result.csv\n\nflyball COMMAND --help tells more.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return explain(app, error);
+  }
+  if (run_app->parsed()) return run_command(run);
+  if (check_app->parsed()) return check_command(check);
+  return blocks_command(blocks);
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  reserve_standard_streams();
+  const auto fail = [](std::string_view message, ExitStatus status) {
+    complain(fmt::format("error: {}\n", message));
+    return static_cast<int>(status);
+  };
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const UsageError& error) {
+    return fail(error.what(), exit_usage);
+  } catch (const FileError& error) {
+    return fail(error.what(), exit_input_output);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory", exit_numerical_failure);
+  } catch (const std::length_error&) {
+    return fail("the results have more rows than fit memory: log at longer intervals",
+                exit_numerical_failure);
+  }
+}
+
+}  // namespace flyball

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "models/diagram.h"
+#include "solvers/log.h"
+#include "tools/exit_status.h"
+
+namespace flyball {
+
+/// Arguments that cannot be meant: exit status 2.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct RunOptions {
+  std::string model;
+  std::string output;  // CSV file; empty: none
+  std::vector<Override> overrides;
+  // What replaces the model's [simulation].
+  std::optional<double> stop, rtol, atol, max_step, step;
+  std::optional<Rational> log_interval;
+  std::optional<std::string> method;
+  EventRows event_rows = EventRows::both;
+  bool json = false;
+  bool quiet = false;
+};
+
+struct CheckOptions {
+  std::vector<std::string> models;
+  std::vector<Override> overrides;
+  bool json = false;
+};
+
+struct BlocksOptions {
+  std::string name;      // empty: all
+  std::string markdown;  // folder to write the reference to; empty: none
+  bool json = false;
+};
+
+// The subcommands. Each returns the exit status; FileError and UsageError are left to the caller.
+int run_command(const RunOptions& options);
+int check_command(const CheckOptions& options);
+int blocks_command(const BlocksOptions& options);
+
+}  // namespace flyball

@@ -1,0 +1,29 @@
+#include "tools/interrupt.h"
+
+namespace flyball {
+namespace {
+
+volatile std::sig_atomic_t received = 0;
+
+void note(int number) { received = number; }
+
+}  // namespace
+
+InterruptWatch::InterruptWatch() {
+  received = 0;
+  struct sigaction action = {};
+  action.sa_handler = note;
+  action.sa_flags = SA_RESETHAND;
+  sigemptyset(&action.sa_mask);
+  ::sigaction(SIGINT, &action, &old_interrupt_);
+  ::sigaction(SIGTERM, &action, &old_terminate_);
+}
+
+InterruptWatch::~InterruptWatch() {
+  ::sigaction(SIGINT, &old_interrupt_, nullptr);
+  ::sigaction(SIGTERM, &old_terminate_, nullptr);
+}
+
+int InterruptWatch::signal_number() { return received; }
+
+}  // namespace flyball

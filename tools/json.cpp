@@ -1,0 +1,112 @@
+#include "tools/json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace flyball {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+const char* name_of(Diagnostic::Severity severity) {
+  switch (severity) {
+    case Diagnostic::Severity::error:
+      return "error";
+    case Diagnostic::Severity::warning:
+      return "warning";
+    case Diagnostic::Severity::note:
+      return "note";
+  }
+  return "";
+}
+
+Json model_json(const ModelFile& model) {
+  Json json = {{"file", model.name}, {"ok", model.plan != nullptr}};
+  if (model.plan) {
+    const Plan& plan = *model.plan;
+    json["blocks"] = plan.diagram->instances.size();
+    json["states"] = plan.layout.states();
+    json["rates"] = plan.hit_rates.size();
+    json["crossings"] = plan.crossing_records.size() + plan.located_relations.size();
+  }
+  json["diagnostics"] = Json::array();
+  for (const Diagnostic& d : model.diagnostics) {
+    json["diagnostics"].push_back({{"severity", name_of(d.severity)},
+                                   {"file", d.file},
+                                   {"line", d.at.line},
+                                   {"column", d.at.column},
+                                   {"message", d.message}});
+  }
+  return json;
+}
+
+/// JSON has no infinity: a missing end is null.
+Json end_json(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json slot_json(const SlotSpec& slot) {
+  Json json = {{"name", slot.name}, {"unit", slot.unit}, {"doc", slot.doc}};
+  if (slot.kind == SlotKind::param) {
+    json["default"] = slot.fallback;
+    json["range"] = {{"lower", end_json(slot.range.lower)},
+                     {"upper", end_json(slot.range.upper)},
+                     {"lower_open", slot.range.lower_open},
+                     {"upper_open", slot.range.upper_open}};
+  }
+  if (slot.optional) json["default"] = slot.fallback;
+  return json;
+}
+
+Json port_json(const Specification& spec, const PortSpec& port) {
+  Json json = slot_json(spec.slots[static_cast<std::size_t>(port.slots[0])]);
+  json["name"] = port.name;
+  json["doc"] = port.doc;
+  if (!port.elements.empty()) json["elements"] = port.elements;
+  return json;
+}
+
+Json block_json(const BlockType& type) {
+  const BlockObject object = type.create();
+  const Specification& spec = *object.specification;
+  Json json = {{"name", type.name}, {"family", type.family}, {"summary", type.summary}};
+  json["structure"] = Json::array();
+  for (const StructureSpec& key : spec.structure) {
+    json["structure"].push_back(
+        {{"key", key.key}, {"default", key.fallback}, {"choices", key.choices}, {"doc", key.doc}});
+  }
+  for (const bool is_input : {true, false}) {
+    Json& ports = json[is_input ? "inputs" : "outputs"] = Json::array();
+    for (const PortSpec& port : spec.ports) {
+      if (port.is_input == is_input) ports.push_back(port_json(spec, port));
+    }
+  }
+  for (const auto& [key, kind] :
+       {std::pair("parameters", SlotKind::param), std::pair("states", SlotKind::state),
+        std::pair("held", SlotKind::held), std::pair("relations", SlotKind::relation),
+        std::pair("crossings", SlotKind::crossing), std::pair("alarms", SlotKind::alarm)}) {
+    Json& slots = json[key] = Json::array();
+    for (const SlotSpec& slot : spec.slots) {
+      if (slot.kind == kind && !slot.fixed) slots.push_back(slot_json(slot));
+    }
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string check_json(const std::vector<ModelFile>& models) {
+  Json json = {{"models", Json::array()}};
+  for (const ModelFile& model : models) json["models"].push_back(model_json(model));
+  return text_of(json);
+}
+
+std::string blocks_json(const std::vector<const BlockType*>& types) {
+  Json json = {{"blocks", Json::array()}};
+  for (const BlockType* type : types) json["blocks"].push_back(block_json(*type));
+  return text_of(json);
+}
+
+}  // namespace flyball

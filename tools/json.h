@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "blocks/registry.h"
+#include "tools/model_file.h"
+
+namespace flyball {
+
+/// {"models": [{"file", "ok", "blocks", "states", "rates", "crossings", "diagnostics": […]}]}
+std::string check_json(const std::vector<ModelFile>& models);
+
+/// {"blocks": [{"name", "family", "summary", "structure", "parameters", "inputs", "outputs", …}]}
+std::string blocks_json(const std::vector<const BlockType*>& types);
+
+}  // namespace flyball

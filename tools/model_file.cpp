@@ -1,0 +1,26 @@
+#include "tools/model_file.h"
+
+#include "studies/file.h"
+
+namespace flyball {
+
+ModelFile load_model(const std::string& file, const std::vector<Override>& overrides) {
+  ModelFile model;
+  model.name = file;
+  model.text = read_file(file);
+  Diagnostics diagnostics(file);
+  if (auto diagram = read_diagram(model.text, diagnostics, overrides)) {
+    model.plan = make_plan(std::make_shared<const Diagram>(*std::move(diagram)), diagnostics);
+  }
+  model.diagnostics = diagnostics.sorted();
+  model.errors = diagnostics.errors();
+  return model;
+}
+
+std::string listing(const ModelFile& model) {
+  std::string lines;
+  for (const Diagnostic& diagnostic : model.diagnostics) lines += to_string(diagnostic) + '\n';
+  return lines;
+}
+
+}  // namespace flyball
