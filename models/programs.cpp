@@ -50,12 +50,14 @@ constexpr int last_level = std::numeric_limits<int>::max();
 
 class ProgramWriter {
  public:
-  ProgramWriter(Plan& plan, const Order& order) : plan_(plan), order_(order), place_of_(plan.placed.size()) {
+  ProgramWriter(Plan& plan, const Order& order)
+      : plan_(plan), order_(order), place_of_(plan.placed.size()), moves_(order.nodes(), false) {
     for (int k = 0; k < static_cast<int>(plan.placed.size()); ++k) place_of_[plan.placed[k]] = k;
   }
 
   void run() {
     write_sweep();
+    find_moving();
     const std::vector<bool> rates_cone = cone_of_rates(), zeros_cone = cone_of_zeros();
     plan_.rates_only = assemble(calls_with(SlotKind::state, Phase::rates));
     plan_.rates = assemble(cone_calls(rates_cone), calls_with(SlotKind::state, Phase::rates));
@@ -163,13 +165,37 @@ class ProgramWriter {
     return calls;
   }
 
-  /// Marks the unsampled outputs behind slots `reads` of an instance, and what is behind them. Bits are
-  /// frozen between instants and sampled outputs are latched, so neither leads further.
+  /// Finds the outputs that move during a step: unsampled, and behind them time or a state. What does not
+  /// move keeps the value of the last sweep, so minor steps need not compute it.
+  void find_moving() {
+    std::vector<std::vector<Endpoint>> of_level(order_.levels());
+    for (int node = 0; node < order_.nodes(); ++node) {
+      const Endpoint e = order_.level(node) < 0 ? Endpoint{} : order_.endpoint(node);
+      const bool output = e.connected() && slot(e).kind == SlotKind::output;
+      if (output && plan_.rate_of[e.instance] < 0) of_level[order_.level(node)].push_back(e);
+    }
+    for (const auto& endpoints : of_level) {
+      for (const Endpoint e : endpoints) {
+        moves_[order_.node(e)] = std::ranges::any_of(object(e.instance).reads[e.slot], [&](int read) {
+          return moves({e.instance, read});
+        });
+      }
+    }
+  }
+
+  bool moves(Endpoint read) const {
+    const Endpoint source = order_.source(read.instance, read.slot);
+    const Endpoint e = source.connected() ? source : read;
+    const SlotKind kind = slot(e).kind;
+    return kind == SlotKind::time || kind == SlotKind::state || moves_[order_.node(e)];
+  }
+
+  /// Marks the moving outputs behind slots `reads` of an instance, and what is behind them. Bits are frozen
+  /// between instants, so they do not lead further.
   void mark(std::vector<bool>& cone, int instance, const std::vector<int>& reads) const {
     std::vector<Endpoint> open;
     const auto visit = [&](Endpoint e) {
-      if (slot(e).kind == SlotKind::relation || plan_.rate_of[e.instance] >= 0 || cone[order_.node(e)])
-        return;
+      if (!moves_[order_.node(e)] || cone[order_.node(e)]) return;
       cone[order_.node(e)] = true;
       open.push_back(e);
     };
@@ -256,6 +282,7 @@ class ProgramWriter {
   Plan& plan_;
   const Order& order_;
   std::vector<int> place_of_;
+  std::vector<bool> moves_;  // of each node
 };
 
 }  // namespace

@@ -15,8 +15,9 @@ namespace {
 
 using sundials::check;
 
-/// From this number of states on the Jacobian is sparse.
-constexpr int sparse_from = 50;
+/// From this number of states on the Jacobian is sparse. Measured for tridiagonal ones, microseconds a step,
+/// dense and sparse: 4.2 and 5.8 at 20 states, 7.0 and 5.9 at 30, 92 and 14 at 120.
+constexpr int sparse_from = 30;
 
 class CvodeStepper final : public Stepper<double> {
  public:
@@ -25,7 +26,7 @@ class CvodeStepper final : public Stepper<double> {
   void restart(double t, const double* x, StepMemory& memory, bool changed) override;
   double step(double limit, StepMemory& memory) override;
   const double* state() const override { return N_VGetArrayPointer(state_.get()); }
-  void interpolate(double t, double* x) const override;
+  void interpolate(double t, double* x) override;
   bool ends_with_rates() const override { return false; }
 
  private:
@@ -282,7 +283,7 @@ std::vector<WeightedError> CvodeStepper::worst() const {
   return worst_states(system_, weighted);
 }
 
-void CvodeStepper::interpolate(double t, double* x) const {
+void CvodeStepper::interpolate(double t, double* x) {
   if (fresh_) {
     std::copy(state(), state() + size_, x);
     return;

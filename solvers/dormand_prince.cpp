@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "solvers/hermite.h"
 #include "solvers/step_failure.h"
 
 namespace flyball {
@@ -103,6 +102,7 @@ T DormandPrince<T>::idle_step(T limit) {
 template <class T>
 void DormandPrince<T>::continue_from_end() {
   begin_ = end_;
+  extended_ = false;
   std::copy(row(after), row(after) + size_, row(before));
   std::copy(row(last_rate), row(last_rate) + size_, row(0));
 }
@@ -197,17 +197,35 @@ void DormandPrince<T>::fail(double next) const {
   throw step_vanished(value_of(begin_), next, worst_states(system_, weighted));
 }
 
+/// The four rows of contd5 in dopri5.f: a step may be asked for many points, so the sums over stages are made
+/// once.
 template <class T>
-void DormandPrince<T>::interpolate(T t, T* x) const {
-  const T theta = (t - begin_) / taken_;
-  const HermiteWeights<T> hermite(theta);
-  const T quartic = theta * theta * (1.0 - theta) * (1.0 - theta) * taken_;
-  const T first = hermite.rate_before * taken_, last = hermite.rate_after * taken_;
+void DormandPrince<T>::extend() {
   const T* rates = row(0);
+  T* chord = row(extension);
+  T* first = row(extension + 1);
+  T* last = row(extension + 2);
+  T* bubble = row(extension + 3);
   for (int i = 0; i < size_; ++i) {
-    const T bubble = combine(d, rates + i, size_, std::make_index_sequence<stages>());
-    x[i] = hermite.before * row(before)[i] + hermite.after * row(after)[i] + first * rates[i] +
-           last * row(last_rate)[i] + quartic * bubble;
+    chord[i] = row(after)[i] - row(before)[i];
+    first[i] = taken_ * rates[i] - chord[i];
+    last[i] = chord[i] - taken_ * row(last_rate)[i] - first[i];
+    bubble[i] = taken_ * combine(d, rates + i, size_, std::make_index_sequence<stages>());
+  }
+  extended_ = true;
+}
+
+template <class T>
+void DormandPrince<T>::interpolate(T t, T* x) {
+  if (!extended_) extend();
+  const T theta = (t - begin_) / taken_;
+  const T rest = 1.0 - theta;
+  const T* start = row(before);
+  const T* terms = row(extension);
+  const int n = size_;
+  for (int i = 0; i < n; ++i) {
+    const T inner = terms[2 * n + i] + rest * terms[3 * n + i];
+    x[i] = start[i] + theta * (terms[i] + rest * (terms[n + i] + theta * inner));
   }
 }
 

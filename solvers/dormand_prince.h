@@ -25,12 +25,12 @@ class DormandPrince final : public Stepper<T> {
   void restart(T t, const T* x, StepMemory& memory, bool changed) override;
   T step(T limit, StepMemory& memory) override;
   const T* state() const override { return row(after); }
-  void interpolate(T t, T* x) const override;
+  void interpolate(T t, T* x) override;
   bool ends_with_rates() const override { return true; }
 
  private:
   // Rows of the storage. The seven rates come first, so that the rate of stage j is row j.
-  static constexpr int stages = 7, last_rate = 6, before = 7, after = 8, trial = 9, rows = 10;
+  static constexpr int stages = 7, last_rate = 6, before = 7, after = 8, trial = 9, extension = 10, rows = 14;
 
   T* row(int r) { return storage_.data() + r * size_; }
   const T* row(int r) const { return storage_.data() + r * size_; }
@@ -39,6 +39,7 @@ class DormandPrince final : public Stepper<T> {
   void continue_from_end();
   double first_step(double remaining);
   void attempt(T end);
+  void extend();
   template <std::size_t N>
   void stage(const double (&a)[N], T t, int target);
   double error_of(int i) const;
@@ -51,6 +52,7 @@ class DormandPrince final : public Stepper<T> {
   int size_;
   std::vector<T> storage_;
   T begin_, end_, taken_;  // the last step [s]; taken_ is end_ - begin_
+  bool extended_ = false;  // whether the continuous extension of this step has been prepared
 };
 
 }  // namespace flyball

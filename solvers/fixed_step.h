@@ -95,7 +95,7 @@ class Euler final : public FixedStep<T> {
  public:
   Euler(System<T>& system, const StepperOptions& options) : Base(system, options, 0) {}
 
-  void interpolate(T t, T* x) const override {
+  void interpolate(T t, T* x) override {
     const T theta = (t - this->begin()) / this->taken();
     const T *from = this->row(Base::before), *to = this->row(Base::after);
     for (int i = 0; i < this->size(); ++i) x[i] = (1.0 - theta) * from[i] + theta * to[i];
@@ -117,7 +117,7 @@ class RungeKutta4 final : public FixedStep<T> {
  public:
   RungeKutta4(System<T>& system, const StepperOptions& options) : Base(system, options, 4) {}
 
-  void interpolate(T t, T* x) const override {
+  void interpolate(T t, T* x) override {
     const T h = this->taken();
     const HermiteWeights<T> w((t - this->begin()) / h);
     const T *x0 = this->row(Base::before), *x1 = this->row(Base::after);

@@ -217,8 +217,8 @@ void Simulator::log_asked(double end, bool with_end) {
   if (!log_options_.enabled || log_.columns().empty()) return;
   double* x = workspace_.values.data() + plan_->layout.first_state;
   const Frame<double> f = frame(*plan_, workspace_);
-  for (double t = log_time(workspace_.log_position); with_end ? t <= end : t < end - same_instant(end);
-       t = log_time(workspace_.log_position)) {
+  const double last = with_end ? end : end - same_instant(end);
+  for (double t = log_time(workspace_.log_position); t <= last; t = log_time(workspace_.log_position)) {
     workspace_.values[0] = t;
     stepper_->interpolate(t, x);
     flyball::run(plan_->logs, *plan_, f);

@@ -65,8 +65,9 @@ class Stepper {
 
   /// The state at the end of the last step.
   virtual const T* state() const = 0;
-  /// The state inside the last step, from its continuous extension.
-  virtual void interpolate(T t, T* x) const = 0;
+  /// The state inside the last step, from its continuous extension (which a method may prepare when first
+  /// asked).
+  virtual void interpolate(T t, T* x) = 0;
 
   /// Whether the last call of System::rates in `step` was at the end point: its outputs can then be used.
   virtual bool ends_with_rates() const = 0;

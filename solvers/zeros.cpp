@@ -57,13 +57,13 @@ const std::vector<int>& Zeros::changed(bool after_rates) {
   return changed_;
 }
 
-void Zeros::evaluate_at(double t, const Stepper<double>& stepper) {
+void Zeros::evaluate_at(double t, Stepper<double>& stepper) {
   workspace_.values[0] = t;
   stepper.interpolate(t, workspace_.values.data() + plan_.layout.first_state);
   run(plan_.zeros, plan_, frame(plan_, workspace_));
 }
 
-double Zeros::locate(double t0, double t1, const Stepper<double>& stepper) {
+double Zeros::locate(double t0, double t1, Stepper<double>& stepper) {
   for (const int k : changed_) scale_[k] = std::fabs(value(watched_[k].slot));
   double end = t1;
   for (std::size_t next = 0; next < changed_.size();) {

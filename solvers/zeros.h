@@ -26,10 +26,10 @@ class Zeros {
 
   /// The first time in (t0, t1] at which something has changed side, given that `changed` at t1 was not
   /// empty. Leaves the workspace and `changed` at that time.
-  double locate(double t0, double t1, const Stepper<double>& stepper);
+  double locate(double t0, double t1, Stepper<double>& stepper);
 
   /// Takes the end of the step for the time of what was located just before it.
-  void found_at(double t1, const Stepper<double>& stepper) {
+  void found_at(double t1, Stepper<double>& stepper) {
     evaluate_at(t1, stepper);
     collect();
   }
@@ -71,7 +71,7 @@ class Zeros {
   int side(const Watched& w) const;
   bool wanted(const Watched& w, double z) const;
   void collect();
-  void evaluate_at(double t, const Stepper<double>& stepper);
+  void evaluate_at(double t, Stepper<double>& stepper);
 
   const Plan& plan_;
   Workspace<double>& workspace_;
