@@ -11,8 +11,7 @@ struct PID : PIDTerms {
   State filtered = state("filtered", 0.0, "any", "low-pass filtered error");
   Relation above = relation_if(limits_output, "above", "P + I + D exceeds the upper limit");
   Relation below = relation_if(limits_output, "below", "P + I + D is under the lower limit");
-  // Only I is held at a limit: integration that stops when P + I + D is at one would slide along it,
-  // switching without end.
+  // Only I is held: integration that stops while P + I + D is at a limit would slide along it.
   StateLimits clamped = limits(I, clamps ? lower : Param{}, clamps ? upper : Param{});
 
   void outputs(auto& v) const {
@@ -29,7 +28,6 @@ struct PID : PIDTerms {
   }
   void crossings(auto& v) const { clamped.crossings(v); }
   void on_crossing(Crossing which, auto& v) const { clamped.on_crossing(which, v); }
-
   auto sum(auto& v) const { return v[Kp] * error(v, b) + v[I] + v[Kd] * v[N] * (error(v, c) - v[filtered]); }
   auto free_rate(auto& v) const {
     return tracks ? v[Ki] * error(v) + (v[u] - sum(v)) / v[Tt] : v[Ki] * error(v);
