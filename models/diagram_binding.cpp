@@ -33,6 +33,7 @@ std::optional<Formula> ModelParameters::formula(const TomlValue& value, std::spa
 
 std::optional<Binding> ModelParameters::bind(const TomlValue& value, const std::string& unit) {
   if (value.numeric()) {
+    if (!std::isfinite(value.number)) return std::nullopt;  // the parser has said so
     Binding binding;
     binding.value = value.number;
     binding.at = value.at;

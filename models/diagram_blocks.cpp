@@ -71,8 +71,11 @@ void ModelBlocks::read(const TomlValue& section) {
     instance.name = entry.key;
     instance.at = entry.at;
     const BlockType* type = type_of(entry);
-    forms_.push_back(type == nullptr ? nullptr : make(*type, entry));
-    if (type != nullptr) bind(*forms_.back(), entry, instance);
+    const BlockForm* form = type == nullptr ? nullptr : make(*type, entry);
+    if (form != nullptr) bind(*form, entry, instance);
+    // Ports of a structure that was refused are not those that were meant.
+    const bool refused = !refused_.empty() && refused_.back().get() == form;
+    forms_.push_back(refused ? nullptr : form);
   }
 }
 
@@ -160,8 +163,11 @@ std::optional<Binding> ModelBlocks::bind(const SlotSpec& slot, const TomlEntry& 
   }
   const TomlValue* value = slot.fixed ? nullptr : entry.value.find(slot.setting);
   if (value == nullptr) return binding;
-  if (slot.entry >= 0) value = entry_of(*value, slot.entry);
-  if (value == nullptr) return std::nullopt;  // a list that was refused
+  if (slot.entry >= 0) {
+    value = entry_of(*value, slot.entry);
+    const bool refused = value == nullptr || !(value->numeric() || value->is(TomlValue::Kind::string));
+    if (refused) return std::nullopt;
+  }
   auto given = parameters_.bind(*value, slot.unit);
   if (given) check_range(slot, *given, *value);
   return given;

@@ -123,6 +123,10 @@ std::shared_ptr<const Formula> TableSettings::formula(std::string_view key,
 }
 
 void TableSettings::refuse(std::string_view key, std::string message) {
+  // A value that could not be read was replaced by its default: what the block refuses may only follow from
+  // that.
+  if (report_.errors() > errors_before_ + refusals_) return;
+  ++refusals_;
   if (const TomlValue* value = block_.value.find(key)) {
     report_.error(*value, message::setting_refused(key, message));
   } else {
@@ -133,9 +137,7 @@ void TableSettings::refuse(std::string_view key, std::string message) {
 void TableSettings::append_exact(std::string& result, const TomlValue& value, const std::string& unit) {
   const auto number = parameters_.exact(value, unit);
   if (!number) return;
-  // 3.0 is not taken where a whole number is wanted, but is as a time.
-  const char kind = value.is(Kind::integer) ? 'i' : 'x';
-  fmt::format_to(std::back_inserter(result), "{}{}/{}", kind, number->numerator(), number->denominator());
+  fmt::format_to(std::back_inserter(result), "{}/{}", number->numerator(), number->denominator());
 }
 
 void TableSettings::append_shape(std::string& result, std::string_view key) {
@@ -154,6 +156,8 @@ std::string TableSettings::structure(const Uses& uses) {
     result += '=';
     if ((use & as_written) != 0) append(result, *value);
     if ((use & as_time) != 0) append_exact(result, *value, "s");
+    // 3.0 is not taken where a whole number is wanted.
+    if ((use & as_whole) != 0 && value->is(Kind::number)) result += '.';
     if ((use & as_whole) != 0) append_exact(result, *value, "1");
     if ((use & as_shape) != 0) append_shape(result, key);
     result += ';';

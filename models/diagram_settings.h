@@ -17,7 +17,7 @@ class TableSettings : public Settings {
   using Uses = std::map<std::string, unsigned, std::less<>>;
 
   TableSettings(const TomlEntry& block, ModelParameters& parameters, Report& report)
-      : block_(block), parameters_(parameters), report_(report) {}
+      : block_(block), parameters_(parameters), report_(report), errors_before_(report.errors()) {}
 
   bool given(std::string_view key) const override;
   std::optional<std::string> text(std::string_view key) override;
@@ -43,6 +43,8 @@ class TableSettings : public Settings {
   const TomlEntry& block_;
   ModelParameters& parameters_;
   Report& report_;
+  int errors_before_;
+  int refusals_ = 0;
   mutable Uses uses_;
 };
 

@@ -182,7 +182,6 @@ class ExpressionParser {
       for (const auto& [name, index] : *scope_.parameters) names.push_back(name);
     }
     std::ranges::sort(names);
-    names.insert(names.end(), function_names().begin(), function_names().end());
     return names;
   }
 

@@ -79,6 +79,10 @@ void refuse_name(std::string_view text, std::size_t first, std::size_t at, const
   const std::size_t start = skip_space(text, at);
   const std::string_view name = leading_name(text.substr(start));
   if (name.empty() || is_reserved(name)) return;
+  const std::size_t behind = skip_space(text, start + name.size());
+  if (behind < text.size() && text[behind] == '(') {
+    throw TextError(start, message::unexpected(std::string(name) + "("));
+  }
   throw TextError(start, ends_unit(name)
                              ? message::parameter_after_number(text.substr(first, at - first), name)
                              : message::unknown_unit(name));

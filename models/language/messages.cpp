@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "models/language/nearest.h"
 #include "models/language/units.h"
 
@@ -47,7 +49,7 @@ Text kind_of(const TomlValue& value) {
     case TomlValue::Kind::integer:
       return "a whole number";
     case TomlValue::Kind::number:
-      return "a number";
+      return "a decimal number";
     case TomlValue::Kind::string:
       return "a text";
     case TomlValue::Kind::date:
@@ -67,7 +69,10 @@ std::string not_utf8(unsigned char byte) {
   return format("not UTF-8: unexpected byte 0x{:02X}; save the file as UTF-8", byte);
 }
 std::string nested_too_deeply(int limit) { return format("nested more than {} levels deep", limit); }
-std::string syntax(Text reason) { return format("not TOML: {}", reason); }
+std::string syntax(Text reason) {
+  if (reason.starts_with("unescaped control")) reason = "a text in quotes ends on the line where it began";
+  return format("not TOML: {}", reason);
+}
 std::string stands_twice(Text key) {
   return format("\"{}\" stands twice; give one of them another name", key);
 }
@@ -104,7 +109,7 @@ std::string no_such_entry(Text block, Text setting) {
 std::string unknown_unit(Text name) {
   return format("unknown unit \"{}\"{}", name, suggestion(name, unit_names()));
 }
-std::string expected_in_unit(Text expected) { return format("expected {} in the unit", expected); }
+std::string expected_in_unit(Text expected) { return format("expected {}", expected); }
 std::string celsius_in_compound() {
   return "degC stands only as a whole value, such as \"21 degC\"; use K in expressions and compound units";
 }
@@ -158,7 +163,10 @@ std::string expected_number() {
 std::string expected_condition() { return "expected a condition such as a > b, found a number"; }
 std::string expression_too_deep() { return "the expression is nested too deeply"; }
 std::string expression_too_long() { return "the expression is too long"; }
-std::string not_finite(double value) { return format("expected a finite number, the value is {}", value); }
+std::string not_finite(double value) {
+  const Text found = std::isnan(value) ? "not a number" : value > 0.0 ? "infinite" : "minus infinite";
+  return format("expected a finite number, but the value is {}", found);
+}
 std::string not_exact(Text expression) {
   return format("\"{}\" has no exact value: use whole numbers, decimals and fractions with + - * / ^",
                 expression);

@@ -30,19 +30,20 @@ int edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::optional<std::string> nearest(std::string_view name, const std::vector<std::string>& candidates) {
-  // Long texts are no misspelt names, and the distance is quadratic.
+  // Long texts are no misspelt names, and the distance is quadratic; of two letters, one that differs leaves
+  // too little in common.
+  constexpr std::size_t shortest = 3;
   constexpr std::size_t longest = 64;
-  if (name.empty() || name.size() > longest) return std::nullopt;
-  int best = std::max(1, static_cast<int>(name.size()) / 3) + 1;
+  if (name.size() < shortest || name.size() > longest) return std::nullopt;
+  int best = (name.size() == shortest ? 1 : std::max(2, static_cast<int>(name.size()) / 3)) + 1;
   std::optional<std::string> found;
   for (const std::string& candidate : candidates) {
     const auto difference = static_cast<int>(candidate.size()) - static_cast<int>(name.size());
     if (difference >= best || -difference >= best) continue;
     const int distance = edit_distance(name, candidate);
-    if (distance < best && distance < static_cast<int>(std::max(name.size(), candidate.size()))) {
-      best = distance;
-      found = candidate;
-    }
+    if (distance >= best) continue;
+    best = distance;
+    found = candidate;
   }
   return found;
 }

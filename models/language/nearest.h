@@ -11,7 +11,7 @@ namespace flyball {
 /// "gain" and "Gain" are 0 apart.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate that `name` was probably meant to be: at most a third of its letters differ.
+/// The candidate that `name` was probably meant to be: at most two of its letters differ, or a third.
 std::optional<std::string> nearest(std::string_view name, const std::vector<std::string>& candidates);
 
 }  // namespace flyball

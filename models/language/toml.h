@@ -59,8 +59,8 @@ class TomlDocument {
 inline constexpr int deepest_nesting = 64;
 
 /// Parses a text. Everything that is wrong is reported; nothing comes back when there is no tree to go on
-/// with. NaN, infinities and keys that stand twice are reported and left out, so that the rest can be
-/// checked.
+/// with. NaN, infinities and keys that stand twice are reported; the tree holds the former, but not the
+/// latter.
 std::optional<TomlDocument> parse_toml(std::string_view text, Diagnostics& diagnostics);
 
 }  // namespace flyball

@@ -196,7 +196,7 @@ class UnitParser {
       ++at_;
       unit = product(depth + 1);
       skip_space();
-      if (!next_is(')')) throw TextError(at_, message::expected_in_unit(")"));
+      if (!next_is(')')) throw TextError(at_, message::expected_in_unit("\")\" to close the unit"));
       ++at_;
     } else {
       unit = name();
@@ -207,7 +207,7 @@ class UnitParser {
   Unit name() {
     if (next_is('1') || next_is('%')) return *find_unit(text_.substr(at_++, 1));
     const std::string_view found = peek_name();
-    if (found.empty()) throw TextError(at_, message::expected_in_unit("a unit"));
+    if (found.empty()) throw TextError(at_, message::expected_in_unit("the name of a unit"));
     const auto unit = find_unit(found);
     if (!unit) throw TextError(at_, message::unknown_unit(std::string(found)));
     at_ += found.size();
@@ -262,7 +262,7 @@ class UnitParser {
 Unit parse_unit(std::string_view text) {
   UnitParser parser(text, 0, nullptr);
   const Unit unit = parser.product(0);
-  if (!parser.done()) throw TextError(parser.at(), message::expected_in_unit("*, / or ^"));
+  if (!parser.done()) throw TextError(parser.at(), message::expected_in_unit("*, / or ^ between units"));
   return unit;
 }
 
