@@ -10,6 +10,9 @@ namespace {
 // More lines than this cannot be told apart by a legend.
 constexpr std::size_t longest_legend = 12;
 
+// More panels than this are too many to look at.
+constexpr long most_single_panels = 6;
+
 std::string axis_label(const std::string& name, const std::string& unit) {
   if (unit.empty() || unit == "any" || unit == "1") return name;
   return name.empty() ? fmt::format("[{}]", unit) : fmt::format("{} [{}]", name, unit);
@@ -35,12 +38,26 @@ set linetype cycle 6
 set border 3 lc rgb '#555555'
 set tics nomirror out textcolor rgb '#333333'
 set grid lc rgb '#dddddd' lt 1 lw 1
-set key outside right top Left reverse samplen 2 noenhanced
+set key at graph 1.02, graph 1 left top Left reverse samplen 2 noenhanced
 set datafile separator comma
 )";
 
+bool has_legend(const Panel& panel) {
+  return panel.curves.size() > 1 && panel.curves.size() <= longest_legend;
+}
+
+/// Room to the right of all panels, in characters.
+std::size_t legend_width(const Figure& figure) {
+  std::size_t width = 3;
+  for (const Panel& panel : figure.panels) {
+    if (!has_legend(panel)) continue;
+    for (const Curve& curve : panel.curves) width = std::max(width, curve.label.size() + 8);
+  }
+  return std::min<std::size_t>(width, 40);
+}
+
 std::string panel_script(const Panel& panel, bool last) {
-  const bool legend = panel.curves.size() > 1 && panel.curves.size() <= longest_legend;
+  const bool legend = has_legend(panel);
   std::string script = fmt::format("\nset ylabel {} noenhanced\n", gnuplot_quoted(panel.label));
   if (last) script += "set xlabel 'time [s]'\nset format x '%g'\n";
   script += "plot";
@@ -67,10 +84,13 @@ std::string gnuplot_quoted(const std::string& text) {
 }
 
 Figure figure_of(const std::vector<LogColumn>& columns, const std::string& title, const std::string& csv) {
+  const auto unknown = std::ranges::count(columns, "any", &LogColumn::unit);
   Figure figure{title, {}};
   std::vector<std::string> units;
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    const auto same = std::ranges::find(units, columns[c].unit);
+    // Signals of unknown unit are most often of different size.
+    const bool alone = columns[c].unit == "any" && unknown <= most_single_panels;
+    const auto same = alone ? units.end() : std::ranges::find(units, columns[c].unit);
     const auto panel = static_cast<std::size_t>(same - units.begin());
     if (same == units.end()) {
       units.push_back(columns[c].unit);
@@ -95,7 +115,8 @@ std::string gnuplot_script(const Figure& figure, const std::string& stem) {
   if (figure.end > 0.0) script += fmt::format("set xrange [0:{}]\n", figure.end);
   script +=
       fmt::format("set multiplot layout {},1 title {} noenhanced\n", panels, gnuplot_quoted(figure.title));
-  script += "set lmargin 11\nset rmargin 24\n";
+  // Panels with and without a legend keep one width.
+  script += fmt::format("set lmargin 11\nset rmargin {}\n", legend_width(figure));
   if (panels > 1) script += "set format x ''\n";
   for (const Panel& panel : figure.panels) script += panel_script(panel, &panel == &figure.panels.back());
   return script + "\nunset multiplot\n";

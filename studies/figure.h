@@ -28,6 +28,7 @@ struct Figure {
 };
 
 /// A figure of all columns of a result: one panel a unit, in the order of the columns.
+/// Signals whose unit is not known have a panel each, unless they are many.
 Figure figure_of(const std::vector<LogColumn>& columns, const std::string& title, const std::string& csv);
 
 /// A gnuplot script for people to restyle. It is run in its folder and draws STEM.svg, or STEM.png with

@@ -47,15 +47,32 @@ Json columns_of(const Log& log) {
   return columns;
 }
 
+Json last_row_of(const Log& log) {
+  Json row = Json::object();
+  if (log.rows() == 0) return row;
+  row["time"] = log.time(log.rows() - 1);
+  for (int c = 0; c < log.width(); ++c) {
+    row[log.columns()[static_cast<std::size_t>(c)].name] = log.value(log.rows() - 1, c);
+  }
+  return row;
+}
+
 }  // namespace
 
 std::string metadata_json(const RunResult& result, const RunInputs& inputs, std::string_view csv_name,
                           std::string_view csv) {
-  Json json = {
-      {"flyball", flyball_version()},      {"status", to_string(result.status)}, {"reason", result.reason},
-      {"model", model_of(result, inputs)}, {"stop", result.settings.stop},       {"end", result.end},
-      {"wall_time", result.wall_time},     {"solver", solver_of(result)},        {"rows", result.log.rows()},
-      {"columns", columns_of(result.log)}, {"libraries", Json::object()}};
+  Json json = {{"flyball", flyball_version()},
+               {"status", to_string(result.status)},
+               {"reason", result.reason},
+               {"model", model_of(result, inputs)},
+               {"stop", result.settings.stop},
+               {"end", result.end},
+               {"wall_time", result.wall_time},
+               {"solver", solver_of(result)},
+               {"rows", result.log.rows()},
+               {"columns", columns_of(result.log)},
+               {"last_row", last_row_of(result.log)},
+               {"libraries", Json::object()}};
   for (const Version& library : library_versions()) json["libraries"][library.name] = library.number;
   if (!csv_name.empty()) json["csv"] = {{"file", csv_name}, {"checksum", fingerprint(csv)}};
   // A path need not be UTF-8, JSON must be.

@@ -155,7 +155,7 @@ class Page {
   Rows crossings() const {
     Rows rows;
     each(SlotKind::crossing, [&](const SlotSpec& s, bool absent) {
-      rows.push_back({code(s.name), to_text(s.direction), marked(s, absent)});
+      rows.push_back({code(s.name), absent ? "" : to_text(s.direction), marked(s, absent)});
     });
     return rows;
   }

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# flyball check and flyball blocks.
+source "$(dirname -- "${BASH_SOURCE[0]}")/expect.sh"
+
+expect 0 check "$arc"
+says out "arc_error_loop.toml: ok: 8 blocks, 2 states, 0 sample rates, 0 crossings"
+is_empty err
+
+sed -e 's/"Gain"/"Gian"/' -e 's/"Sum"/"Smu"/' "$arc" >"two errors.toml"
+expect 3 check "$arc" "two errors.toml"
+says out "arc_error_loop.toml: ok"
+errors=$(grep -c '^two errors.toml:[0-9]*:[0-9]*: error: ' err)
+says err "$errors errors"
+((errors >= 2)) || fail "$last: $errors errors"
+
+expect 5 check missing.toml "$arc"
+says err "missing.toml: cannot be read"
+says err "1 error"
+says out "arc_error_loop.toml: ok"
+
+expect 0 check --json "$arc"
+says out '"ok": true'
+says out '"states": 2'
+expect 0 check --help
+says out "Example:"
+
+expect 0 blocks
+says out "PID"
+says out "control"
+expect 0 blocks PID
+says out "# PID"
+says out '| `Kp` | any | 1 | any | proportional gain |'
+says out '| `N` | rad/s | 100 | > 0 | pole of the derivative filter |'
+says out '| `anti_windup` | `"none"` | none, clamping, back_calculation |'
+says out '| rate of `integral` | `Ki`, `e` |'
+expect 0 blocks PID --json
+says out '"default": 100.0'
+expect 0 blocks --help
+says out "Example:"
+expect 0 blocks --markdown "reference pages"
+exists "reference pages/PID.md"
+says "reference pages/index.md" "[PID](PID.md)"
+"$flyball" blocks PID >out
+cmp -s out "reference pages/PID.md" || fail "the written page is not the printed one"
+finish
