@@ -95,7 +95,8 @@ bool Simulator::advance() {
   if (time_ >= settings_.stop) return false;
   const double tick = next_tick();
   const double alarm = instant_.next_alarm();
-  const double due = std::fabs(tick - alarm) <= same_instant(tick) ? tick : std::min(tick, alarm);
+  const double first = std::min(tick, alarm);
+  const double due = tick - first <= same_instant(first) ? tick : first;
   const double limit = std::min(due, settings_.stop);
   bool located = false;
   double end = stepper_->step(limit, workspace_.step);

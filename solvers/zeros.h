@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "solvers/workspace.h"
@@ -8,10 +9,7 @@
 namespace flyball {
 
 /// Times this close are one instant: rounding of an alarm's own arithmetic, and of a located root.
-inline double same_instant(double t) {
-  const double size = std::fabs(t);
-  return 16.0 * (std::nextafter(size, never) - size);
-}
+inline double same_instant(double t) { return 16.0 * std::numeric_limits<double>::epsilon() * std::fabs(t); }
 
 /// Watches the relations and crossings of a run for changes of sign, and finds when they happen.
 class Zeros {
