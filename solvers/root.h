@@ -54,8 +54,10 @@ struct RootBracket {
 /// bracket: 7 evaluations for a smooth z, both ends included, and at most 3 a bit for any. No allocation.
 template <class F>
 double locate_root(double a, double b, int side, F&& z) {
+  // Around 0 there is always a number nearer to it: halving must end all the same.
   const double tolerance =
-      4.0 * std::numeric_limits<double>::epsilon() * std::max(std::fabs(a), std::fabs(b));
+      std::max(4.0 * std::numeric_limits<double>::epsilon() * std::max(std::fabs(a), std::fabs(b)),
+               std::numeric_limits<double>::min());
   const auto value = [&](double t) { return side * z(t); };
   RootBracket bracket{a, value(a), b, value(b), a, 0.0};
   while (bracket.near_value <= 0.0 && bracket.width() > tolerance) {

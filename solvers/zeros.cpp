@@ -75,7 +75,8 @@ double Zeros::locate(double t0, double t1, Stepper<double>& stepper) {
       scale_[k] = std::max(scale_[k], std::fabs(z));
       return z;
     });
-    if (end - found <= same_instant(end)) {  // simultaneous with what was found there
+    // By the rounding of the step, not of `end`: that may lie arbitrarily close to a step's beginning at 0.
+    if (end - found <= same_instant(t1)) {  // simultaneous with what was found there
       ++next;
       continue;
     }
