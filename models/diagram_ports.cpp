@@ -44,9 +44,11 @@ int PortNames::block(const Piece& piece) {
   const std::string_view name = piece.text.substr(0, piece.text.find('.'));
   const int found = blocks_.find(name);
   if (found >= 0) return found;
-  report_.error_inside(
-      *piece.string, piece.offset,
-      name.empty() ? message::expected_block() : message::unknown_block(name, blocks_.names()));
+  // Where hundreds of names are wrong, a search among all blocks for each would take minutes.
+  constexpr int enough = 100;
+  const auto candidates = report_.errors() < enough ? blocks_.names() : std::vector<std::string>{};
+  report_.error_inside(*piece.string, piece.offset,
+                       name.empty() ? message::expected_block() : message::unknown_block(name, candidates));
   return -1;
 }
 
