@@ -72,7 +72,7 @@ void Instant::sweep(const Due* hits) {
       zeros_.settle(plan_.sweep.settle[k]);
   }
   if (!outputs_are_finite(plan_, workspace_))
-    throw_first_bad(plan_.sweep, plan_, workspace_, hits != nullptr);
+    throw_first_bad({&plan_.sweep}, plan_, workspace_, hits != nullptr);
 }
 
 void Instant::collect_due(const Due& due) {
@@ -174,7 +174,8 @@ void Instant::ask_schedules() {
   if (plan_.layout.alarms() == 0) return;
   flyball::run(plan_.schedules, plan_, frame(plan_, workspace_));
   for (const AlarmRecord& alarm : plan_.alarm_records) {
-    if (std::isnan(workspace_.values[alarm.slot])) throw_first_bad(plan_.schedules, plan_, workspace_, true);
+    if (std::isnan(workspace_.values[alarm.slot]))
+      throw_first_bad({&plan_.schedules}, plan_, workspace_, true);
   }
 }
 

@@ -4,9 +4,17 @@ namespace flyball {
 
 Log::Log(const Plan& plan) : columns_(plan.columns) {}
 
-void Log::append(const std::vector<double>& values) {
+bool Log::append(const std::vector<double>& values) {
+  double zero = 0.0;  // 0 times a finite number
   data_.push_back(values[0]);
-  for (const LogColumn& column : columns_) data_.push_back(values[column.slot]);
+  for (const LogColumn& column : columns_) {
+    const double value = values[column.slot];
+    zero += 0.0 * value;
+    data_.push_back(value);
+  }
+  if (zero == 0.0) return true;
+  data_.resize(data_.size() - columns_.size() - 1);
+  return false;
 }
 
 void Log::read(const std::vector<double>& values, std::vector<double>& row) const {

@@ -25,8 +25,8 @@ class Log {
   const std::vector<double>& data() const { return data_; }
 
   void reserve(std::int64_t rows) { data_.reserve(static_cast<std::size_t>(rows) * (width() + 1)); }
-  /// Appends the logged slots of a value array.
-  void append(const std::vector<double>& values);
+  /// Appends the logged slots of a value array. False, and nothing appended, when one of them is not finite.
+  bool append(const std::vector<double>& values);
   void append_row(const std::vector<double>& row) { data_.insert(data_.end(), row.begin(), row.end()); }
   /// The row that `append` would append.
   void read(const std::vector<double>& values, std::vector<double>& row) const;

@@ -25,7 +25,7 @@ void PlanSystem::place(double t, const double* x) {
 void PlanSystem::rates(double t, const double* x, double* dx) {
   place(t, x);
   run(plan_.rates, plan_, frame(plan_, workspace_, dx));
-  if (!all_finite(dx, size())) throw_first_bad(plan_.rates, plan_, workspace_);
+  if (!all_finite(dx, size())) throw_first_bad({&plan_.rates}, plan_, workspace_);
 }
 
 void PlanSystem::load_jets() {
@@ -105,6 +105,13 @@ std::string readings(const Op& op, const int* index, const Workspace<double>& wo
   return text.empty() ? text : fmt::format(" ({})", text);
 }
 
+[[noreturn]] void throw_bad(const std::string& what, double value, double t, const std::string& read) {
+  // The sign of NaN means nothing.
+  const std::string number = std::isnan(value) ? "nan" : fmt::format("{}", value);
+  throw SimulationError(SimulationError::Kind::not_finite, t,
+                        fmt::format("{} is {} at t = {} s{}", what, number, t, read));
+}
+
 /// The first slot that this call made bad; -1 when all is well.
 int bad_result(const Op& op, const int* index, const Plan& plan, const Workspace<double>& workspace,
                const std::vector<double>& dx) {
@@ -123,31 +130,34 @@ int bad_result(const Op& op, const int* index, const Plan& plan, const Workspace
   return -1;
 }
 
+/// Calls instance `k` of a batch and throws when it made something bad.
+void check_call(const Op& op, int k, const Plan& plan, Workspace<double>& workspace,
+                std::vector<double>& dx) {
+  Op one = op;
+  one.first += k * op.stride;
+  one.count = 1;
+  call(one, plan, frame(plan, workspace, dx.data()));
+  const int* index = plan.index.data() + one.first;
+  const int s = bad_result(one, index, plan, workspace, dx);
+  if (s < 0) return;
+  const bool rate = op.phase == Phase::rates;
+  const double value = rate ? dx[index[s] - plan.layout.first_state] : workspace.values[index[s]];
+  throw_bad((rate ? "the rate of " : "") + plan.slot_name(index[s]), value, workspace.values[0],
+            readings(op, index, workspace));
+}
+
 }  // namespace
 
-void throw_first_bad(const Program& program, const Plan& plan, Workspace<double>& workspace, bool hits) {
+void throw_first_bad(std::initializer_list<const Program*> programs, const Plan& plan,
+                     Workspace<double>& workspace, bool hits) {
   const double t = workspace.values[0];
   for (int k = plan.layout.first_state; k < plan.layout.first_output; ++k) {
-    if (std::isfinite(workspace.values[k])) continue;
-    throw SimulationError(SimulationError::Kind::not_finite, t,
-                          fmt::format("{} is {} at t = {} s", plan.slot_name(k), workspace.values[k], t));
+    if (!std::isfinite(workspace.values[k])) throw_bad(plan.slot_name(k), workspace.values[k], t, "");
   }
   std::vector<double> dx(plan.layout.states());
-  for (const Op& op : program.ops) {
-    if (op.rate >= 0 && !hits) continue;
-    for (int k = 0; k < op.count; ++k) {
-      Op one = op;
-      one.first += k * op.stride;
-      one.count = 1;
-      call(one, plan, frame(plan, workspace, dx.data()));
-      const int* index = plan.index.data() + one.first;
-      const int s = bad_result(one, index, plan, workspace, dx);
-      if (s < 0) continue;
-      const bool rate = op.phase == Phase::rates;
-      const double value = rate ? dx[index[s] - plan.layout.first_state] : workspace.values[index[s]];
-      throw SimulationError(SimulationError::Kind::not_finite, t,
-                            fmt::format("{}{} is {} at t = {} s{}", rate ? "the rate of " : "",
-                                        plan.slot_name(index[s]), value, t, readings(op, index, workspace)));
+  for (const Program* program : programs) {
+    for (const Op& op : program->ops) {
+      for (int k = 0; k < op.count && (op.rate < 0 || hits); ++k) check_call(op, k, plan, workspace, dx);
     }
   }
   throw SimulationError(SimulationError::Kind::not_finite, t,

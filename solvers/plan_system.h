@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 
 #include "solvers/workspace.h"
@@ -38,9 +39,9 @@ class PlanSystem final : public System<double> {
 bool all_finite(const double* x, int n);
 
 /// Throws SimulationError (not_finite) that names block, port, time and inputs of the first bad number when
-/// `program` runs again, instance by instance, on what the workspace holds. `hits` runs sampled blocks, too.
-[[noreturn]] void throw_first_bad(const Program& program, const Plan& plan, Workspace<double>& workspace,
-                                  bool hits = false);
+/// `programs` run again, instance by instance, on what the workspace holds. `hits` runs sampled blocks, too.
+[[noreturn]] void throw_first_bad(std::initializer_list<const Program*> programs, const Plan& plan,
+                                  Workspace<double>& workspace, bool hits = false);
 
 /// Checks what a sweep of unsampled blocks wrote: outputs must be finite, relations and crossings not NaN.
 bool outputs_are_finite(const Plan& plan, const Workspace<double>& workspace);

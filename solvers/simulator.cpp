@@ -101,7 +101,8 @@ bool Simulator::advance() {
   bool located = false;
   double end = stepper_->step(limit, workspace_.step);
   if (!zeros_.none()) end = locate(time_, end, limit, located);
-  if (!outputs_are_finite(*plan_, workspace_)) throw_first_bad(plan_->rates, *plan_, workspace_);
+  if (!outputs_are_finite(*plan_, workspace_))
+    throw_first_bad({&plan_->rates, &plan_->zeros}, *plan_, workspace_);
   const bool is_instant = located || end >= due;
   log_asked(end, !is_instant);
   double* x = workspace_.values.data() + plan_->layout.first_state;
@@ -214,23 +215,23 @@ bool Simulator::asked(double t) const {
   return std::fabs(log_time(workspace_.log_position) - t) <= same_instant(t);
 }
 
+/// A row from inside the last step.
+void Simulator::log_at(double t) {
+  workspace_.values[0] = t;
+  stepper_->interpolate(t, workspace_.values.data() + plan_->layout.first_state);
+  flyball::run(plan_->logs, *plan_, frame(*plan_, workspace_));
+  if (!log_.append(workspace_.values)) throw_first_bad({&plan_->logs}, *plan_, workspace_);
+}
+
 void Simulator::log_asked(double end, bool with_end) {
   if (!log_options_.enabled || log_.columns().empty()) return;
-  double* x = workspace_.values.data() + plan_->layout.first_state;
-  const Frame<double> f = frame(*plan_, workspace_);
   const double last = with_end ? end : end - same_instant(end);
   for (double t = log_time(workspace_.log_position); t <= last; t = log_time(workspace_.log_position)) {
-    workspace_.values[0] = t;
-    stepper_->interpolate(t, x);
-    flyball::run(plan_->logs, *plan_, f);
-    log_.append(workspace_.values);
+    log_at(t);
     ++workspace_.log_position;
   }
   if (!with_end || end < settings_.stop || (log_.rows() > 0 && log_.time(log_.rows() - 1) >= end)) return;
-  workspace_.values[0] = end;
-  stepper_->interpolate(end, x);
-  flyball::run(plan_->logs, *plan_, f);
-  log_.append(workspace_.values);
+  log_at(end);
 }
 
 /// The rows of an instant: both sides of a jump, one where the signals are continuous and the time was asked

@@ -70,6 +70,7 @@ class Simulator {
 
   double log_time(std::int64_t k) const { return static_cast<double>(k) * log_step_ / log_divisor_; }
   bool asked(double t) const;
+  void log_at(double t);
   void log_asked(double end, bool with_end);
   void log_instant(bool was_asked);
 
