@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <map>
+#include <algorithm>
+#include <filesystem>
 #include <new>
+#include <sstream>
 
 #include "solvers/stepper.h"
 #include "studies/file.h"
@@ -82,13 +84,14 @@ void add_output(CLI::App* command, RunOptions& options) {
                    "Where to write the results; .json, .gp, .svg and .png stand beside it")
       ->type_name("FILE.csv")
       ->check(is_csv_file);
-  const std::map<std::string, EventRows> rows{
-      {"both", EventRows::both}, {"after", EventRows::after}, {"none", EventRows::none}};
+  const auto read_rows = [&options](const std::string& choice) {
+    options.event_rows = choice == "after"  ? EventRows::after
+                         : choice == "none" ? EventRows::none
+                                            : EventRows::both;
+  };
   command
-      ->add_option("--event-rows", options.event_rows,
-                   "Rows at jumps besides the asked times: both sides, after, none")
-      ->transform(CLI::CheckedTransformer(rows, CLI::ignore_case))
-      ->type_name("ROWS");
+      ->add_option_function<std::string>("--event-rows", read_rows, "Rows at jumps besides the asked times")
+      ->check(CLI::IsMember({"both", "after", "none"}));
 }
 
 CLI::App* add_run(CLI::App& app, RunOptions& options) {
