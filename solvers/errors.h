@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -20,5 +21,8 @@ class SimulationError : public std::runtime_error {
   Kind kind_;
   double time_;
 };
+
+/// A number as messages show it: the sign of NaN means nothing.
+inline double shown(double x) { return x == x ? x : std::numeric_limits<double>::quiet_NaN(); }
 
 }  // namespace flyball

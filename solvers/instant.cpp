@@ -145,20 +145,26 @@ void Instant::run_handler(const Handler& handler) {
   }
 }
 
+/// Before anything is committed, so that the message shows what the handler read.
+void Instant::check_staged() const {
+  for (const int i : touched_) {
+    for (int k = staged_first_[i]; k < staged_first_[i + 1]; ++k) {
+      const double next = workspace_.next[staged_[k] - plan_.layout.first_state];
+      if (!std::isfinite(next)) throw_bad_next(staged_[k], next, plan_, workspace_);
+    }
+  }
+}
+
 /// Whether anything changed that an unsampled block can see: a sampled block's held values show at its hits
 /// only.
 bool Instant::commit() {
+  check_staged();
   bool visible = false;
   for (const int i : touched_) {
     is_staged_[i] = 0;
     for (int k = staged_first_[i]; k < staged_first_[i + 1]; ++k) {
       const double next = workspace_.next[staged_[k] - plan_.layout.first_state];
       double& value = workspace_.values[staged_[k]];
-      if (!std::isfinite(next)) {
-        throw SimulationError(SimulationError::Kind::not_finite, workspace_.values[0],
-                              fmt::format("the next value of {} is {} at t = {} s",
-                                          plan_.slot_name(staged_[k]), next, workspace_.values[0]));
-      }
       if (next != value && (plan_.rate_of[i] < 0 || staged_[k] < plan_.layout.first_held)) visible = true;
       value = next;
     }

@@ -46,6 +46,7 @@ class Instant {
   void run_handlers();
   void run_handler(const Handler& handler);
   void run_again(const Handler& handler);
+  void check_staged() const;
   bool commit();
   void remember_externals();
   bool externals_changed() const;

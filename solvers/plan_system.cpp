@@ -54,7 +54,7 @@ void PlanSystem::jacobian(double t, const double* x, double* values) {
         if (std::isfinite(values[k])) continue;
         throw SimulationError(SimulationError::Kind::not_finite, t,
                               fmt::format("the derivative of the rate of {} by {} is {} at t = {} s",
-                                          state_name(pattern.row[k]), state_name(c), values[k], t));
+                                          state_name(pattern.row[k]), state_name(c), shown(values[k]), t));
       }
     }
   }
@@ -93,10 +93,11 @@ bool outputs_are_finite(const Plan& plan, const Workspace<double>& workspace) {
 namespace {
 
 /// "u = 3, gain = 2": what the instance read, for the message.
-std::string readings(const Op& op, const int* index, const Workspace<double>& workspace) {
+std::string readings(const BlockObject& object, const int* index, const Workspace<double>& workspace) {
+  const auto& slots = object.specification->slots;
   std::string text;
-  for (int s = 0; s < op.stride; ++s) {
-    const SlotSpec& spec = op.object->specification->slots[s];
+  for (int s = 0; s < static_cast<int>(slots.size()); ++s) {
+    const SlotSpec& spec = slots[s];
     const bool read = spec.kind == SlotKind::input || spec.kind == SlotKind::param ||
                       spec.kind == SlotKind::state || spec.kind == SlotKind::held;
     if (!read) continue;
@@ -106,10 +107,8 @@ std::string readings(const Op& op, const int* index, const Workspace<double>& wo
 }
 
 [[noreturn]] void throw_bad(const std::string& what, double value, double t, const std::string& read) {
-  // The sign of NaN means nothing.
-  const std::string number = std::isnan(value) ? "nan" : fmt::format("{}", value);
   throw SimulationError(SimulationError::Kind::not_finite, t,
-                        fmt::format("{} is {} at t = {} s{}", what, number, t, read));
+                        fmt::format("{} is {} at t = {} s{}", what, shown(value), t, read));
 }
 
 /// The first slot that this call made bad; -1 when all is well.
@@ -143,10 +142,16 @@ void check_call(const Op& op, int k, const Plan& plan, Workspace<double>& worksp
   const bool rate = op.phase == Phase::rates;
   const double value = rate ? dx[index[s] - plan.layout.first_state] : workspace.values[index[s]];
   throw_bad((rate ? "the rate of " : "") + plan.slot_name(index[s]), value, workspace.values[0],
-            readings(op, index, workspace));
+            readings(*op.object, index, workspace));
 }
 
 }  // namespace
+
+void throw_bad_next(int slot, double value, const Plan& plan, const Workspace<double>& workspace) {
+  const int instance = plan.owner[slot];
+  throw_bad("the next value of " + plan.slot_name(slot), value, workspace.values[0],
+            readings(*plan.instance(instance).object, plan.index_of(instance), workspace));
+}
 
 void throw_first_bad(std::initializer_list<const Program*> programs, const Plan& plan,
                      Workspace<double>& workspace, bool hits) {

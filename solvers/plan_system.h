@@ -43,6 +43,10 @@ bool all_finite(const double* x, int n);
 [[noreturn]] void throw_first_bad(std::initializer_list<const Program*> programs, const Plan& plan,
                                   Workspace<double>& workspace, bool hits = false);
 
+/// The same for what a handler staged for a state or held value.
+[[noreturn]] void throw_bad_next(int slot, double value, const Plan& plan,
+                                 const Workspace<double>& workspace);
+
 /// Checks what a sweep of unsampled blocks wrote: outputs must be finite, relations and crossings not NaN.
 bool outputs_are_finite(const Plan& plan, const Workspace<double>& workspace);
 

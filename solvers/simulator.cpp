@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "solvers/errors.h"
+#include "solvers/chattering.h"
 
 namespace flyball {
 namespace {
@@ -28,6 +28,7 @@ StepperOptions stepper_options(const SimulationSettings& settings) {
 
 void require_in_range(const std::string& name, double value, const Range& range) {
   if (range.contains(value)) return;
+  if (std::isnan(value)) throw std::invalid_argument(name + " is not a number");
   throw std::invalid_argument(fmt::format("{} is {}, outside its range {}{}, {}{}", name, value,
                                           range.lower_open ? '(' : '[', range.lower, range.upper,
                                           range.upper_open ? ')' : ']'));
@@ -192,23 +193,7 @@ void Simulator::watch_progress(double t) {
   for (const int k : zeros_.found()) {
     if (std::ranges::find(recent_, k) == recent_.end()) recent_.push_back(k);
   }
-  if (++close_events_ > most_close_events) throw_chattering(t);
-}
-
-void Simulator::throw_chattering(double t) const {
-  // First those that rates read: they are what makes the motion slide.
-  std::vector<int> order = recent_;
-  std::ranges::stable_partition(order, [&](int k) {
-    return std::ranges::find(plan_->externals, zeros_.slot(k)) != plan_->externals.end();
-  });
-  std::string names;
-  for (const int k : order) names += (names.empty() ? "" : ", ") + zeros_.name(k);
-  throw SimulationError(
-      SimulationError::Kind::chattering, t,
-      fmt::format(
-          "chattering at t = {} s: {} events in a row without progress, by {}; the motion slides along the "
-          "switching condition or its events pile up: give the switch a hysteresis, or end the run before",
-          t, close_events_, names));
+  if (++close_events_ > most_close_events) throw chattering(t, close_events_, recent_, *plan_, zeros_);
 }
 
 bool Simulator::asked(double t) const {

@@ -66,7 +66,6 @@ class Simulator {
   void find_due(double t, double tick, bool located);
   void check_alarms(double t) const;
   void watch_progress(double t);
-  [[noreturn]] void throw_chattering(double t) const;
 
   double log_time(std::int64_t k) const { return static_cast<double>(k) * log_step_ / log_divisor_; }
   bool asked(double t) const;

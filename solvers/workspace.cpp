@@ -37,7 +37,7 @@ void require_finite(const Plan& plan, const Workspace<T>& workspace, int slot, c
   const double value = value_of(workspace.values[slot]);
   if (std::isfinite(value)) return;
   throw SimulationError(SimulationError::Kind::not_finite, 0.0,
-                        fmt::format("{} {} is {}", what, plan.slot_name(slot), value));
+                        fmt::format("{} {} is {}", what, plan.slot_name(slot), shown(value)));
 }
 
 }  // namespace
