@@ -197,19 +197,18 @@ void DormandPrince<T>::fail(double next) const {
   throw step_vanished(value_of(begin_), next, worst_states(system_, weighted));
 }
 
-/// The four rows of contd5 in dopri5.f: a step may be asked for many points, so the sums over stages are made
-/// once.
+/// The quartic of dopri5.f as (1 - theta) x0 + theta (x1 + (1 - theta) (first + theta (last + (1 - theta)
+/// bubble))), exact at both ends. A step may be asked for many points, so the sums over stages are made once.
 template <class T>
 void DormandPrince<T>::extend() {
   const T* rates = row(0);
-  T* chord = row(extension);
-  T* first = row(extension + 1);
-  T* last = row(extension + 2);
-  T* bubble = row(extension + 3);
+  T* first = row(extension);
+  T* last = row(extension + 1);
+  T* bubble = row(extension + 2);
   for (int i = 0; i < size_; ++i) {
-    chord[i] = row(after)[i] - row(before)[i];
-    first[i] = taken_ * rates[i] - chord[i];
-    last[i] = chord[i] - taken_ * row(last_rate)[i] - first[i];
+    const T chord = row(after)[i] - row(before)[i];
+    first[i] = taken_ * rates[i] - chord;
+    last[i] = chord - taken_ * row(last_rate)[i] - first[i];
     bubble[i] = taken_ * combine(d, rates + i, size_, std::make_index_sequence<stages>());
   }
   extended_ = true;
@@ -220,12 +219,11 @@ void DormandPrince<T>::interpolate(T t, T* x) {
   if (!extended_) extend();
   const T theta = (t - begin_) / taken_;
   const T rest = 1.0 - theta;
-  const T* start = row(before);
-  const T* terms = row(extension);
+  const T *start = row(before), *end = row(after), *terms = row(extension);
   const int n = size_;
   for (int i = 0; i < n; ++i) {
-    const T inner = terms[2 * n + i] + rest * terms[3 * n + i];
-    x[i] = start[i] + theta * (terms[i] + rest * (terms[n + i] + theta * inner));
+    const T inner = terms[n + i] + rest * terms[2 * n + i];
+    x[i] = rest * start[i] + theta * (end[i] + rest * (terms[i] + theta * inner));
   }
 }
 

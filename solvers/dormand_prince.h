@@ -30,7 +30,7 @@ class DormandPrince final : public Stepper<T> {
 
  private:
   // Rows of the storage. The seven rates come first, so that the rate of stage j is row j.
-  static constexpr int stages = 7, last_rate = 6, before = 7, after = 8, trial = 9, extension = 10, rows = 14;
+  static constexpr int stages = 7, last_rate = 6, before = 7, after = 8, trial = 9, extension = 10, rows = 13;
 
   T* row(int r) { return storage_.data() + r * size_; }
   const T* row(int r) const { return storage_.data() + r * size_; }

@@ -44,7 +44,7 @@ struct RootBracket {
 
 /// The first side change of z in (a, b], for a z that is beyond zero at b, seen from `side` (the sign of z at
 /// a: 1 or -1). Returns a point strictly on the far side, at most a few units in the last place after the
-/// change. Zero is not yet the far side.
+/// change. Zero is not yet the far side. Where z(b) is not beyond zero after all, by rounding, it is b.
 ///
 /// z(a) itself may be zero or rounding noise, as after an event: then a point that is truly on the near side
 /// is looked for first, halving. Where there is none, the point found is within rounding of a.
@@ -60,6 +60,7 @@ double locate_root(double a, double b, int side, F&& z) {
                std::numeric_limits<double>::min());
   const auto value = [&](double t) { return side * z(t); };
   RootBracket bracket{a, value(a), b, value(b), a, 0.0};
+  if (bracket.far_value >= 0.0) return b;
   while (bracket.near_value <= 0.0 && bracket.width() > tolerance) {
     bracket.replace(bracket.middle(), value(bracket.middle()));
   }

@@ -74,6 +74,16 @@ TEST_CASE("A change at the very start is found there") {
   }
 }
 
+TEST_CASE("A change that rounding takes back is at the end") {
+  int evaluations = 0;
+  const double found = locate_root(0.0, 1.0, 1, [&](double t) {
+    ++evaluations;
+    return 1.0 - t;
+  });
+  CHECK(found == 1.0);
+  CHECK(evaluations == 2);
+}
+
 TEST_CASE("The first of the changes that halving separates is found") {
   // Positive on (0, 0.1), negative until 0.3, positive until 0.9; the start is at zero, so the search begins
   // by halving.
