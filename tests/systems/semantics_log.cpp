@@ -19,7 +19,8 @@ wires = ["v -> x -> back -> v"]
 log = ["x"]
 [simulation]
 stop = 10
-solver = { method = ")" + method + R"(", rtol = 1e-9, atol = 1e-9, step = 0.01 }
+solver = { method = ")" +
+            method + R"(", rtol = 1e-9, atol = 1e-9, step = 0.01 }
 log_interval = "1/7 s"
 )");
     run.finish();
