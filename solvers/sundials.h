@@ -13,7 +13,8 @@
 #include <string>
 #include <type_traits>
 
-// SUNDIALS behind handles that free themselves. Only sources of this folder include it.
+// SUNDIALS behind handles that free themselves. Besides sources of this folder only the benchmark that drives
+// CVODE without Flyball includes it.
 namespace flyball::sundials {
 
 static_assert(std::is_same_v<sunrealtype, double>, "SUNDIALS must be built for double");
