@@ -105,13 +105,14 @@ TEST_CASE("Van der Pol, stiff: the reference of the Test Set for IVP Solvers at 
 }
 
 TEST_CASE("Robertson: the published values at 40 s") {
-  // Hindmarsh et al., SUNDIALS, example cvRoberts: to 10 digits.
+  // Hindmarsh et al., SUNDIALS, example cvRoberts: to 10 digits. The slow reaction forgets nothing, and 300
+  // steps of random sign add up to a few tolerances.
   const Model model = shipped("classic/robertson");
   Run run(model);
   run.finish();
-  CHECK(weighted(run["A.x"], 0.7158268718, model.settings) < 10.0);
-  CHECK(weighted(run["B.x"], 9.185534765e-6, model.settings) < 10.0);
-  CHECK(weighted(run["C.x"], 0.2841639457, model.settings) < 10.0);
+  CHECK(weighted(run["A.x"], 0.7158268718, model.settings) < 5.0);
+  CHECK(weighted(run["B.x"], 9.185534765e-6, model.settings) < 5.0);
+  CHECK(weighted(run["C.x"], 0.2841639457, model.settings) < 5.0);
   // Linear invariants are kept by every method, to the rounding of some 300 steps.
   CHECK(std::fabs(run["A.x"] + run["B.x"] + run["C.x"] - 1.0) < 1e-13);
 }
@@ -125,10 +126,9 @@ TEST_CASE("Lorenz: five seconds against another method at the tightest tolerance
   Run run(model), exact(reference);
   run.finish();
   exact.finish();
-  // Errors grow as exp(0.906 t), 93 in 5 s, from each of some 100 steps a second; the largest is of the
-  // first.
+  // Errors grow as exp(0.906 t): a tolerance lost at the start is 93 of them after 5 s.
   for (const std::string state : {"X.x", "Y.x", "Z.x"})
-    CHECK(weighted(run[state], exact[state], model.settings) < 1000.0);
+    CHECK(weighted(run[state], exact[state], model.settings) < 93.0);
 }
 
 TEST_CASE("PID servo: a small turn against the matrix exponential") {
@@ -147,20 +147,21 @@ TEST_CASE("PID servo: a small turn against the matrix exponential") {
   A(2, 0) = -Ki;
   A(2, 4) = Ki;
   A(3, 0) = A(3, 3) = -N;
-  const auto wanted = [&](double t) { return t >= 0.01 ? 0.1 : 0.0; };
   const MatrixXd step = exponential(A * 1e-3);
   VectorXd x = VectorXd::Zero(6);
-  double worst = 0.0;
+  double angle_error = 0.0, speed_error = 0.0, fastest = 0.0;
   for (int k = 0; k <= 600; ++k) {
     const double t = k / 1000.0;
-    // Five tolerances of all that the angle has been so far: the loop is stable, and forgets.
-    worst = std::max(worst, std::fabs(run.logged("shaft", t) - x(0)));
-    CHECK(std::fabs(run.logged("speed", t) - x(1)) < 50.0 * (1e-10 + 1e-8 * 20.0));
-    x(4) = wanted(t);
-    x(5) = k >= 300 ? 5e-3 : 0.0;
+    angle_error = std::max(angle_error, std::fabs(run.logged("shaft", t) - x(0)));
+    speed_error = std::max(speed_error, std::fabs(run.logged("speed", t) - x(1)));
+    fastest = std::max(fastest, std::fabs(x(1)));
+    x(4) = t >= 0.01 ? 0.1 : 0.0;
+    x(5) = t >= 0.3 ? 5e-3 : 0.0;
     x = step * x;
   }
-  CHECK(worst < 50.0 * (1e-10 + 1e-8 * 0.1));
+  // The loop is stable and forgets: a tolerance of what angle and speed have been at most.
+  CHECK(angle_error < 1e-10 + 1e-8 * 0.1);
+  CHECK(speed_error < 1e-10 + 1e-8 * fastest);
   CHECK(run.simulator().statistics().events == 0);
 }
 
@@ -206,8 +207,8 @@ TEST_CASE("Sampled DC motor: exact discretisation at all hits") {
     last = e;
     motor.hold(std::clamp(u, -24.0, 24.0), k >= 5000 ? 0.02 : 0.0);
   }
-  // The loop forgets within some 10 ms, so the errors of that many steps are what remains.
-  CHECK(worst < 10.0);
+  // The loop forgets within some 10 ms, so no more than a step's own tolerance is left.
+  CHECK(worst < 1.0);
 }
 
 TEST_CASE("Two-rate loop: exact discretisation at all hits of the fast loop") {
@@ -229,7 +230,9 @@ TEST_CASE("Two-rate loop: exact discretisation at all hits of the fast loop") {
     current_part = std::clamp(current_part + 4000.0 * 1e-4 * e, -12.0, 12.0);
     motor.hold(std::clamp(2.0 * e + current_part, -12.0, 12.0), k >= 2000 ? 0.1 : 0.0);
   }
-  CHECK(worst < 10.0);
+
+  // As for the sampled motor; the current is measured against its limit.
+  CHECK(worst < 1.0);
 }
 
 TEST_CASE("Arc error loop: the published table of the nonlinear loop") {
