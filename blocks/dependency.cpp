@@ -5,8 +5,9 @@
 
 namespace flyball {
 
-Dependency Dependency::on(int slot) {
+Dependency Dependency::on(int slot, bool varies) {
   Dependency result;
+  result.varies_ = varies;
   result.words_.resize(static_cast<std::size_t>(slot) / 64 + 1);
   result.words_.back() = std::uint64_t{1} << (slot % 64);
   return result;
@@ -22,9 +23,15 @@ std::vector<int> Dependency::slots() const {
   return result;
 }
 
-Dependency& Dependency::operator|=(const Dependency& other) {
+void Dependency::read(const Dependency& other) {
   words_.resize(std::max(words_.size(), other.words_.size()));
   for (std::size_t i = 0; i < other.words_.size(); ++i) words_[i] |= other.words_[i];
+}
+
+Dependency& Dependency::join(const Dependency& other, bool affine) {
+  read(other);
+  varies_ = varies_ || other.varies_;
+  affine_ = affine;
   return *this;
 }
 

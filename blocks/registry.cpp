@@ -80,10 +80,8 @@ class Deriver {
         values_(size_),
         rates_(size_),
         index_(size_) {
-    for (int s = 0; s < size_; ++s) {
-      index_[s] = s;
-      values_[s] = Dependency::on(s);
-    }
+    for (int s = 0; s < size_; ++s) index_[s] = s;
+    stand_for_themselves();
     frame_.values = values_.data();
     frame_.rates = rates_.data();
   }
@@ -92,18 +90,27 @@ class Deriver {
     const Kernels<Dependency>& kernels = type_.kernels.on_dependency;
     result.reads.resize(size_);
     result.rate_reads.resize(size_);
-    collect(kernels.outputs, SlotKind::output, values_, result.reads);
+    result.affine.resize(size_);
+    result.rate_affine.resize(size_);
+    collect(kernels.outputs, SlotKind::output, values_, result.reads, result.affine);
     // Outputs now count as read by their own slots: rates and relations that use them come after them.
-    for (int s = 0; s < size_; ++s) values_[s] = Dependency::on(s);
-    collect(kernels.relations, SlotKind::relation, values_, result.reads);
-    collect(kernels.crossings, SlotKind::crossing, values_, result.reads);
-    collect(kernels.schedule, SlotKind::alarm, values_, result.reads);
-    collect(kernels.rates, SlotKind::state, rates_, result.rate_reads);
+    stand_for_themselves();
+    collect(kernels.relations, SlotKind::relation, values_, result.reads, result.affine);
+    collect(kernels.crossings, SlotKind::crossing, values_, result.reads, result.affine);
+    collect(kernels.schedule, SlotKind::alarm, values_, result.reads, result.affine);
+    collect(kernels.rates, SlotKind::state, rates_, result.rate_reads, result.rate_affine);
   }
 
  private:
+  void stand_for_themselves() {
+    for (int s = 0; s < size_; ++s) {
+      const SlotKind kind = spec_.slots[s].kind;
+      values_[s] = Dependency::on(s, kind != SlotKind::param && kind != SlotKind::held);
+    }
+  }
+
   void collect(Kernels<Dependency>::Sweep sweep, SlotKind kind, std::vector<Dependency>& written,
-               std::vector<std::vector<int>>& reads) {
+               std::vector<std::vector<int>>& reads, std::vector<bool>& affine) {
     if (sweep == nullptr) return;
     // A slot past the last marks what was never written.
     for (int s = 0; s < size_; ++s) {
@@ -113,6 +120,7 @@ class Deriver {
     for (int s = 0; s < size_; ++s) {
       if (!is_result(s, kind)) continue;
       reads[s] = written[s].slots();
+      affine[s] = written[s].affine();
       if (!reads[s].empty() && reads[s].back() == size_) {
         throw std::logic_error(fmt::format("block {}: {} is never written", type_.name, spec_.slots[s].name));
       }
@@ -146,6 +154,8 @@ void assume_all_inputs(const Specification& spec, BlockObject& object) {
   }
   object.reads.resize(spec.slots.size());
   object.rate_reads.resize(spec.slots.size());
+  object.affine.resize(spec.slots.size());
+  object.rate_affine.resize(spec.slots.size());
   for (int s = 0; s < static_cast<int>(spec.slots.size()); ++s) {
     const SlotKind kind = spec.slots[s].kind;
     if (kind == SlotKind::output || kind == SlotKind::object_output) object.reads[s] = all;

@@ -22,6 +22,10 @@ struct BlockObject {
   /// this block, ascending. Found by running the equations on Dependency.
   std::vector<std::vector<int>> reads;
   std::vector<std::vector<int>> rate_reads;
+  /// Whether each of these results is an affine function of inputs, states and time, as long as bits and held
+  /// values stand still.
+  std::vector<bool> affine;
+  std::vector<bool> rate_affine;
 };
 
 /// One line of the catalogue.

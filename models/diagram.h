@@ -28,7 +28,7 @@ struct Parameter {
   std::string name;
   Binding binding;
   Range range;
-  std::string unit;         // as declared, "any" without one
+  std::string unit;  // as declared, "any" without one
   std::string doc;
   bool structural = false;  // it fixed a shape or a sample time: changing it takes a new diagram
 };
@@ -45,9 +45,9 @@ struct Endpoint {
 /// One block of the diagram.
 struct Instance {
   std::string name;
-  std::shared_ptr<const BlockObject> object;           // shared by instances of equal type and structure
-  std::vector<std::pair<int, Binding>> parameters;     // slot and binding, for each param slot
-  std::vector<std::pair<int, Endpoint>> inputs;        // slot and source, for each (numeric or object) input slot
+  std::shared_ptr<const BlockObject> object;        // shared by instances of equal type and structure
+  std::vector<std::pair<int, Binding>> parameters;  // slot and binding, for each param slot
+  std::vector<std::pair<int, Endpoint>> inputs;  // slot and source, for each (numeric or object) input slot
   Position at;
 };
 
@@ -61,12 +61,12 @@ struct Logged {
 /// [simulation], with its defaults.
 struct SimulationSettings {
   double stop = 10.0;
-  std::string method = "auto";          // dp5, rk4, euler, adams, bdf; auto is dp5 for now
+  std::string method = "auto";  // dp5, rk4, euler, adams, bdf; auto is dp5 for now
   double rtol = 1e-6;
   double atol = 1e-8;
-  std::optional<double> max_step;       // default: a fiftieth of the run
-  std::optional<double> step;           // of fixed-step methods; default: a thousandth of the run
-  std::optional<Rational> log_interval; // default: a thousandth of the run
+  std::optional<double> max_step;        // default: a fiftieth of the run
+  std::optional<double> step;            // of fixed-step methods; default: a thousandth of the run
+  std::optional<Rational> log_interval;  // default: a thousandth of the run
 };
 
 /// A checked model: every name resolved, every input connected, every structure constructed. Immutable.

@@ -122,6 +122,7 @@ struct Plan {
   Program crossings;           // just the crossings, after a sweep
   Program schedules;           // all alarms
   std::vector<int> externals;  // slots that `rates` reads and does not write, but for states and parameters
+  std::vector<int> switches;   // relations and held values that blocks of these programs read as their own
 
   Rational base_tick = Rational(1);
   std::vector<Rate> hit_rates;

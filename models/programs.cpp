@@ -70,6 +70,7 @@ class ProgramWriter {
     plan_.schedules = assemble(calls_with(SlotKind::alarm, Phase::schedule));
     plan_.logs = assemble(cone_calls(cone_of_logs()));
     find_externals(rates_cone);
+    find_switches();
   }
 
  private:
@@ -276,6 +277,22 @@ class ProgramWriter {
     }
     for (int s = 0; s < layout.size; ++s) {
       if (is_external[s]) plan_.externals.push_back(s);
+    }
+  }
+
+  void find_switches() {
+    std::vector<bool> found(plan_.layout.size, false);
+    for (const Program* program : {&plan_.rates, &plan_.zeros, &plan_.logs}) {
+      for (const Op& op : program->ops) {
+        const auto& slots = op.object->specification->slots;
+        for (int k = 0; k < op.count * op.stride; ++k) {
+          const SlotKind kind = slots[k % op.stride].kind;
+          if (kind == SlotKind::relation || kind == SlotKind::held) found[plan_.index[op.first + k]] = true;
+        }
+      }
+    }
+    for (int s = 0; s < plan_.layout.size; ++s) {
+      if (found[s]) plan_.switches.push_back(s);
     }
   }
 

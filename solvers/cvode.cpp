@@ -205,7 +205,7 @@ double CvodeStepper::step(double limit, StepMemory& memory) {
     N_VScale(1.0, scratch_.get(), state_.get());
     begin_history(position_, memory.size);
   }
-  if (fresh_ && limit - position_ < vanishing_step(limit)) return tiny_step(limit, memory);
+  if (fresh_ && limit - position_ < vanishing_step(limit, options_.max_step)) return tiny_step(limit, memory);
   return multistep(limit, memory);
 }
 
@@ -241,7 +241,8 @@ double CvodeStepper::multistep(double limit, StepMemory& memory) {
   if (std::exchange(fresh_, false)) remember(limit, memory);
   double taken = 0.0;
   CVodeGetLastStep(cvode, &taken);
-  if (flag != CV_TSTOP_RETURN && taken < vanishing_step(time)) throw step_vanished(time, taken, worst());
+  if (flag != CV_TSTOP_RETURN && taken < vanishing_step(time, options_.max_step))
+    throw step_vanished(time, taken, worst());
   return time;
 }
 

@@ -75,7 +75,8 @@ T DormandPrince<T>::step(T limit, StepMemory& memory) {
     const Reach next = reach(std::min(memory.size, options_.max_step), remaining, options_.max_step);
     attempt(next.lands ? limit : begin_ + next.size);
     const double error = error_norm();
-    if (error <= 1.0) {
+    const double least = vanishing_step(value_of(begin_), options_.max_step);
+    if (error <= 1.0 && (next.shortened || next.size >= least)) {
       remember(error, next, rejected, memory);
       ++this->statistics_.steps;
       return end_;
@@ -83,7 +84,7 @@ T DormandPrince<T>::step(T limit, StepMemory& memory) {
     ++this->statistics_.rejected;
     rejected = true;
     memory.size = next.size / std::min(1.0 / least_factor, std::pow(error, exponent) / safety);
-    if (memory.size < vanishing_step(value_of(begin_))) fail(memory.size);
+    if (!(memory.size >= least)) fail(memory.size);
   }
 }
 
@@ -122,7 +123,8 @@ double DormandPrince<T>::first_step(double remaining) {
   const double d0 = norm([&](int i) { return value_of(x[i]); });
   const double d1 = norm([&](int i) { return value_of(rate[i]); });
   const double guess = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1;
-  const double h0 = std::min({guess, remaining, options_.max_step});
+  const double least = vanishing_step(value_of(begin_), options_.max_step);
+  const double h0 = std::max(std::min({guess, remaining, options_.max_step}), least);
 
   T* euler = row(trial);
   T* euler_rate = row(1);
@@ -132,7 +134,7 @@ double DormandPrince<T>::first_step(double remaining) {
   const double d2 = norm([&](int i) { return value_of(euler_rate[i]) - value_of(rate[i]); }) / h0;
   const double curved = std::max(d1, d2);
   const double h1 = curved <= 1e-15 ? std::max(1e-6, 1e-3 * h0) : std::pow(0.01 / curved, 0.2);
-  return std::min({100.0 * h0, h1, options_.max_step});
+  return std::max(std::min({100.0 * h0, h1, options_.max_step}), least);
 }
 
 template <class T>

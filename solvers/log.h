@@ -27,11 +27,15 @@ class Log {
   void reserve(std::int64_t rows) { data_.reserve(static_cast<std::size_t>(rows) * (width() + 1)); }
   /// Appends the logged slots of a value array. False, and nothing appended, when one of them is not finite.
   bool append(const std::vector<double>& values);
+  /// The same for width() values that were computed elsewhere.
+  bool append(double time, const double* row);
   void append_row(const std::vector<double>& row) { data_.insert(data_.end(), row.begin(), row.end()); }
   /// The row that `append` would append.
   void read(const std::vector<double>& values, std::vector<double>& row) const;
 
  private:
+  bool keep_row(double sum_of_zeros);
+
   std::vector<LogColumn> columns_;
   std::vector<double> data_;
 };

@@ -12,6 +12,7 @@ namespace flyball {
 PlanSystem::PlanSystem(const Plan& plan, Workspace<double>& workspace)
     : plan_(plan),
       workspace_(workspace),
+      affine_(plan, plan.rates, {}),
       jets_(plan),
       jet_rates_(plan.layout.states()),
       zero_rates_(plan.layout.size - plan.layout.first_relation) {}
@@ -23,6 +24,10 @@ void PlanSystem::place(double t, const double* x) {
 }
 
 void PlanSystem::rates(double t, const double* x, double* dx) {
+  if (affine_.applies()) {
+    affine_.evaluate(t, x, dx, workspace_, workspace_.rates_map);
+    if (all_finite(dx, size())) return;
+  }
   place(t, x);
   run(plan_.rates, plan_, frame(plan_, workspace_, dx));
   if (!all_finite(dx, size())) throw_first_bad({&plan_.rates}, plan_, workspace_);
@@ -78,8 +83,9 @@ bool all_finite(const double* x, int n) {
   for (; k + 4 <= n; k += 4) {
     for (int j = 0; j < 4; ++j) sum[j] += 0.0 * x[k + j];
   }
-  for (; k < n; ++k) sum[0] += 0.0 * x[k];
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]) == 0.0;
+  double rest = 0.0;
+  for (; k < n; ++k) rest += 0.0 * x[k];
+  return (n < 4 ? rest : (sum[0] + sum[1]) + (sum[2] + sum[3]) + rest) == 0.0;
 }
 
 bool outputs_are_finite(const Plan& plan, const Workspace<double>& workspace) {

@@ -3,6 +3,7 @@
 #include <initializer_list>
 #include <string>
 
+#include "solvers/affine.h"
 #include "solvers/workspace.h"
 
 namespace flyball {
@@ -18,6 +19,9 @@ class PlanSystem final : public System<double> {
   const Sparsity& pattern() const override { return plan_.pattern; }
   void jacobian(double t, const double* x, double* values) override;
 
+  /// Whether `rates` leaves the outputs behind it in the workspace, at its point.
+  bool rates_give_outputs() const { return !affine_.applies(); }
+
   /// Writes time and states into the workspace.
   void place(double t, const double* x);
 
@@ -30,6 +34,7 @@ class PlanSystem final : public System<double> {
 
   const Plan& plan_;
   Workspace<double>& workspace_;
+  AffineProgram affine_;
   Workspace<Jet> jets_;
   std::vector<Jet> jet_rates_;
   std::vector<double> zero_rates_;

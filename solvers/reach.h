@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -23,10 +24,12 @@ inline Reach reach(double wanted, double remaining, double max_step) {
   return {wanted, false, false};
 }
 
-/// A step below this one is lost in the rounding of `time`: 16 units in the last place.
-inline double vanishing_step(double time) {
+/// A step below this one leads nowhere: it is lost in the rounding of `time` (16 units in the last place),
+/// or, near time 0 where rounding knows no limit, a run of steps like it would take 1e25 of them.
+inline double vanishing_step(double time, double max_step) {
   const double t = std::fabs(time);
-  return 16.0 * (std::nextafter(t, std::numeric_limits<double>::infinity()) - t);
+  const double rounding = 16.0 * (std::nextafter(t, std::numeric_limits<double>::infinity()) - t);
+  return std::isfinite(max_step) ? std::max(rounding, 1e-25 * max_step) : rounding;
 }
 
 }  // namespace flyball

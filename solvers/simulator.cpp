@@ -34,6 +34,12 @@ void require_in_range(const std::string& name, double value, const Range& range)
                                           range.upper_open ? ')' : ']'));
 }
 
+std::vector<int> logged_slots(const Plan& plan) {
+  std::vector<int> slots;
+  for (const LogColumn& column : plan.columns) slots.push_back(column.slot);
+  return slots;
+}
+
 }  // namespace
 
 Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings& settings, LogOptions log)
@@ -57,6 +63,7 @@ Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings&
       instant_(*plan_, workspace_, system_, zeros_),
       stepper_(make_stepper(method_, system_, options_)),
       log_(*plan_),
+      affine_log_(*plan_, plan_->logs, logged_slots(*plan_)),
       time_(workspace_.values[0]) {
   if (settings.log_interval) {
     log_step_ = static_cast<double>(settings.log_interval->numerator());
@@ -69,7 +76,7 @@ Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings&
   due_.alarms.reserve(plan_->alarm_records.size());
   recent_.reserve(2 * most_close_events);
   row_before_.reserve(plan_->columns.size() + 1);
-  row_after_.reserve(plan_->columns.size() + 1);
+  row_after_.resize(plan_->columns.size() + 1);
   if (log_options_.enabled)
     log_.reserve(static_cast<std::int64_t>(settings.stop / log_step_ * log_divisor_) + 2);
 }
@@ -123,8 +130,9 @@ bool Simulator::advance() {
 
 /// The end of the step, or the first event in it.
 double Simulator::locate(double t0, double t1, double limit, bool& located) {
-  if (!stepper_->ends_with_rates()) system_.place(t1, stepper_->state());
-  if (zeros_.changed(stepper_->ends_with_rates()).empty()) return t1;
+  const bool after_rates = stepper_->ends_with_rates() && system_.rates_give_outputs();
+  if (!after_rates) system_.place(t1, stepper_->state());
+  if (zeros_.changed(after_rates).empty()) return t1;
   located = true;
   const double found = zeros_.locate(t0, t1, *stepper_);
   if (t1 < limit || limit - found > same_instant(limit)) return found;
@@ -144,6 +152,7 @@ void Simulator::instant(double t, double tick, bool located) {
   find_due(t, tick, located);
   if (located) watch_progress(t);
   const bool changed = instant_.run(due_);
+  workspace_.rates_map.stale = workspace_.zeros_map.stale = workspace_.logs_map.stale = true;
   time_ = t;
   check_alarms(t);
   if (logs) log_instant(was_asked);
@@ -202,8 +211,13 @@ bool Simulator::asked(double t) const {
 
 /// A row from inside the last step.
 void Simulator::log_at(double t) {
+  double* x = workspace_.values.data() + plan_->layout.first_state;
+  stepper_->interpolate(t, x);
+  if (affine_log_.applies()) {
+    affine_log_.evaluate(t, x, row_after_.data(), workspace_, workspace_.logs_map);
+    if (log_.append(t, row_after_.data())) return;
+  }
   workspace_.values[0] = t;
-  stepper_->interpolate(t, workspace_.values.data() + plan_->layout.first_state);
   flyball::run(plan_->logs, *plan_, frame(*plan_, workspace_));
   if (!log_.append(workspace_.values)) throw_first_bad({&plan_->logs}, *plan_, workspace_);
 }

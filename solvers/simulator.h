@@ -86,6 +86,7 @@ class Simulator {
   Instant instant_;
   std::unique_ptr<Stepper<double>> stepper_;
   Log log_;
+  AffineProgram affine_log_;
   Due due_;
   std::vector<double> row_before_, row_after_;
   double time_;

@@ -58,6 +58,7 @@ void initialise(const Plan& plan, Workspace<T>& workspace) {
     workspace.sides[k] = direction == Direction::rising ? -1 : direction == Direction::falling ? 1 : 0;
   }
   for (std::size_t r = 0; r < plan.hit_rates.size(); ++r) workspace.ticks[r] = plan.hit_rates[r].offset_ticks;
+  workspace.rates_map = workspace.zeros_map = workspace.logs_map = {};
   workspace.step = {};
   workspace.log_position = 0;
 }

@@ -16,6 +16,13 @@ template <class T>
 struct Workspace {
   explicit Workspace(const Plan& plan);
 
+  /// What AffineProgram has learned of a program.
+  struct Affine {
+    std::vector<double> matrix, slope, offset;  // matrix by rows
+    std::vector<double> switches;               // Plan::switches at that time
+    bool stale = true;
+  };
+
   std::vector<T> values;            // Plan::layout tells what stands where
   std::vector<T> next;              // staged states and held values
   std::vector<unsigned char> bits;  // of relations
@@ -24,6 +31,7 @@ struct Workspace {
   std::vector<std::shared_ptr<const void>> objects;
   std::vector<std::shared_ptr<const void>> next_objects;
   std::vector<std::any> memories;
+  Affine rates_map, zeros_map, logs_map;
   StepMemory step;
   std::int64_t log_position = 0;  // number of the next asked log time
 };

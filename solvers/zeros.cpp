@@ -9,19 +9,34 @@
 
 namespace flyball {
 
-Zeros::Zeros(const Plan& plan, Workspace<double>& workspace) : plan_(plan), workspace_(workspace) {
-  const Layout& layout = plan.layout;
-  for (const int slot : plan.located_relations) {
-    watched_.push_back({slot, true, slot - layout.first_relation, Direction::either});
-  }
-  first_crossing_ = static_cast<int>(watched_.size());
-  for (int k = 0; k < layout.crossings(); ++k) {
-    watched_.push_back({layout.first_crossing + k, false, k, plan.crossing_records[k].direction});
+namespace {
+
+std::vector<int> watched_slots(const Plan& plan) {
+  std::vector<int> slots = plan.located_relations;
+  for (int k = 0; k < plan.layout.crossings(); ++k) slots.push_back(plan.layout.first_crossing + k);
+  return slots;
+}
+
+}  // namespace
+
+Zeros::Zeros(const Plan& plan, Workspace<double>& workspace)
+    : plan_(plan),
+      workspace_(workspace),
+      first_crossing_(static_cast<int>(plan.located_relations.size())),
+      affine_(plan, plan.zeros, watched_slots(plan)),
+      affine_values_(watched_slots(plan).size()) {
+  for (const int slot : watched_slots(plan)) {
+    const int relation = slot - plan.layout.first_relation, crossing = slot - plan.layout.first_crossing;
+    if (crossing < 0) {
+      watched_.push_back({slot, true, relation, Direction::either});
+    } else {
+      watched_.push_back({slot, false, crossing, plan.crossing_records[crossing].direction});
+    }
   }
   changed_.reserve(watched_.size());
   fired_.reserve(watched_.size());
   forced_now_.reserve(watched_.size());
-  forced_.assign(layout.size - layout.first_relation, 0);
+  forced_.assign(plan.layout.size - plan.layout.first_relation, 0);
   forced_value_.assign(forced_.size(), 0.0);
   scale_.assign(watched_.size(), 0.0);
 }
@@ -46,7 +61,7 @@ void Zeros::collect() {
 }
 
 const std::vector<int>& Zeros::changed(bool after_rates) {
-  run(after_rates ? plan_.zeros_rest : plan_.zeros, plan_, frame(plan_, workspace_));
+  evaluate(after_rates);
   collect();
   if (!changed_.empty()) return changed_;
   // Nothing fires in this step: crossings that went the other way are armed again.
@@ -57,14 +72,25 @@ const std::vector<int>& Zeros::changed(bool after_rates) {
   return changed_;
 }
 
+void Zeros::evaluate(bool after_rates) {
+  if (!affine_.applies())
+    return run(after_rates ? plan_.zeros_rest : plan_.zeros, plan_, frame(plan_, workspace_));
+  const double* states = workspace_.values.data() + plan_.layout.first_state;
+  affine_.evaluate(workspace_.values[0], states, affine_values_.data(), workspace_, workspace_.zeros_map);
+  for (std::size_t k = 0; k < watched_.size(); ++k) workspace_.values[watched_[k].slot] = affine_values_[k];
+}
+
 void Zeros::evaluate_at(double t, Stepper<double>& stepper) {
+  if (t == evaluated_) return;
+  evaluated_ = t;
   workspace_.values[0] = t;
   stepper.interpolate(t, workspace_.values.data() + plan_.layout.first_state);
-  run(plan_.zeros, plan_, frame(plan_, workspace_));
+  evaluate(false);
 }
 
 double Zeros::locate(double t0, double t1, Stepper<double>& stepper) {
   for (const int k : changed_) scale_[k] = std::fabs(value(watched_[k].slot));
+  evaluated_ = std::numeric_limits<double>::quiet_NaN();
   double end = t1;
   for (std::size_t next = 0; next < changed_.size();) {
     const int k = changed_[next];

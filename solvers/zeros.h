@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "solvers/affine.h"
 #include "solvers/workspace.h"
 
 namespace flyball {
@@ -69,12 +70,17 @@ class Zeros {
   int side(const Watched& w) const;
   bool wanted(const Watched& w, double z) const;
   void collect();
+  void evaluate(bool after_rates);
   void evaluate_at(double t, Stepper<double>& stepper);
 
   const Plan& plan_;
   Workspace<double>& workspace_;
+  int first_crossing_;  // in watched_
   std::vector<Watched> watched_;
-  int first_crossing_ = 0;  // in watched_
+  AffineProgram affine_;
+  std::vector<double> affine_values_;
+  double evaluated_ =
+      std::numeric_limits<double>::quiet_NaN();  // time inside the step that the workspace shows
   std::vector<int> changed_;
   std::vector<int> fired_;
   std::vector<unsigned char> forced_;  // of each slot from first_relation on
