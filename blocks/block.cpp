@@ -17,7 +17,8 @@ int Block::slot(SlotSpec spec) {
   return static_cast<int>(spec_.slots.size()) - 1;
 }
 
-Param Block::param(std::string name, double fallback, std::string unit, Range range, std::string doc) {
+SlotSpec Block::param_spec(std::string name, double fallback, std::string unit, Range range,
+                           std::string doc) {
   SlotSpec spec;
   spec.kind = SlotKind::param;
   spec.setting = name;
@@ -26,7 +27,11 @@ Param Block::param(std::string name, double fallback, std::string unit, Range ra
   spec.doc = std::move(doc);
   spec.fallback = fallback;
   spec.range = range;
-  return {slot(std::move(spec))};
+  return spec;
+}
+
+Param Block::param(std::string name, double fallback, std::string unit, Range range, std::string doc) {
+  return {slot(param_spec(std::move(name), fallback, std::move(unit), range, std::move(doc)))};
 }
 
 Param Block::reference(const std::string& name) {
@@ -157,8 +162,8 @@ Output Block::output(std::string name, Held h, std::string doc) {
 
 void Block::pass(Input u, Output y) { spec_.passed.push_back({y.slot, u.slot}); }
 
-int Block::state_slot(SlotKind kind, std::string name, double initial, int initial_param, std::string unit,
-                      std::string doc) {
+SlotSpec Block::state_spec(SlotKind kind, std::string name, double initial, int initial_param,
+                           std::string unit, std::string doc) {
   SlotSpec spec;
   spec.kind = kind;
   spec.name = std::move(name);
@@ -166,7 +171,12 @@ int Block::state_slot(SlotKind kind, std::string name, double initial, int initi
   spec.doc = std::move(doc);
   spec.fallback = initial;
   spec.initial_param = initial_param;
-  return slot(std::move(spec));
+  return spec;
+}
+
+int Block::state_slot(SlotKind kind, std::string name, double initial, int initial_param, std::string unit,
+                      std::string doc) {
+  return slot(state_spec(kind, std::move(name), initial, initial_param, std::move(unit), std::move(doc)));
 }
 
 State Block::state(std::string name, double initial, std::string unit, std::string doc) {
@@ -178,7 +188,7 @@ State Block::state(std::string name, Param initial, std::string unit, std::strin
 }
 
 States Block::states(const std::string& stem, int n, std::string unit, std::string doc) {
-  if (n == 0) note_absent(SlotKind::state, stem, unit, doc);
+  if (n == 0) spec_.absent.push_back(state_spec(SlotKind::state, stem, 0.0, -1, unit, doc));
   const int first = static_cast<int>(spec_.slots.size());
   for (int k = 1; k <= n; ++k) state(fmt::format("{}{}", stem, k), 0.0, unit, doc);
   return {first, n};
@@ -209,7 +219,7 @@ Relation Block::relation(std::string name, std::string doc) {
 }
 
 Relations Block::relations_each(const std::string& stem, int n, std::string doc) {
-  if (n == 0) note_absent(SlotKind::relation, stem, "any", doc);
+  if (n == 0) spec_.absent.push_back(state_spec(SlotKind::relation, stem, 0.0, -1, "any", doc));
   const int first = static_cast<int>(spec_.slots.size());
   for (int k = 1; k <= n; ++k) relation(fmt::format("{}{}", stem, k), doc);
   return {first, n};
@@ -225,43 +235,41 @@ Alarm Block::alarm(std::string name, std::string doc) {
   return {state_slot(SlotKind::alarm, std::move(name), 0, -1, "s", std::move(doc))};
 }
 
-void Block::note_absent(SlotKind kind, std::string name, std::string unit, std::string doc) {
-  SlotSpec spec;
-  spec.kind = kind;
-  spec.name = std::move(name);
-  spec.unit = std::move(unit);
-  spec.doc = std::move(doc);
-  spec_.absent.push_back(std::move(spec));
-}
-
 Param Block::param_if(bool wanted, std::string name, double fallback, std::string unit, Range range,
                       std::string doc) {
   if (wanted) return param(std::move(name), fallback, std::move(unit), range, std::move(doc));
-  note_absent(SlotKind::param, std::move(name), std::move(unit), std::move(doc));
+  spec_.absent.push_back(param_spec(std::move(name), fallback, std::move(unit), range, std::move(doc)));
   return {};
 }
 
 Input Block::input_if(bool wanted, std::string name, std::string unit, std::string doc) {
   if (wanted) return input(std::move(name), std::move(unit), std::move(doc));
-  note_absent(SlotKind::input, std::move(name), std::move(unit), std::move(doc));
+  SlotSpec& absent = spec_.absent.emplace_back();
+  absent.kind = SlotKind::input;
+  absent.name = std::move(name);
+  absent.unit = std::move(unit);
+  absent.doc = std::move(doc);
   return {};
 }
 
 State Block::state_if(bool wanted, std::string name, double initial, std::string unit, std::string doc) {
   if (wanted) return state(std::move(name), initial, std::move(unit), std::move(doc));
-  note_absent(SlotKind::state, std::move(name), std::move(unit), std::move(doc));
+  spec_.absent.push_back(
+      state_spec(SlotKind::state, std::move(name), initial, -1, std::move(unit), std::move(doc)));
   return {};
 }
 
 Relation Block::relation_if(bool wanted, std::string name, std::string doc) {
   if (wanted) return relation(std::move(name), std::move(doc));
-  note_absent(SlotKind::relation, std::move(name), "any", std::move(doc));
+  spec_.absent.push_back(state_spec(SlotKind::relation, std::move(name), 0.0, -1, "any", std::move(doc)));
   return {};
 }
 
 Crossing Block::crossing_if(bool wanted, std::string name, Direction direction, std::string doc) {
   if (wanted) return crossing(std::move(name), direction, std::move(doc));
-  note_absent(SlotKind::crossing, std::move(name), "any", std::move(doc));
+  SlotSpec absent = state_spec(SlotKind::crossing, std::move(name), 0.0, -1, "any", std::move(doc));
+  absent.direction = direction;
+  spec_.absent.push_back(std::move(absent));
   return {};
 }
 

@@ -131,7 +131,10 @@ class Block {
 
  private:
   int slot(SlotSpec spec);
-  void note_absent(SlotKind kind, std::string name, std::string unit, std::string doc);
+  static SlotSpec param_spec(std::string name, double fallback, std::string unit, Range range,
+                             std::string doc);
+  static SlotSpec state_spec(SlotKind kind, std::string name, double initial, int initial_param,
+                             std::string unit, std::string doc);
   int port_slot(bool is_input, std::string name, std::string unit, std::string doc);
   int vector_port(bool is_input, std::string name, const std::vector<std::string>& elements,
                   const std::vector<std::string>& units, const std::string& doc);

@@ -96,8 +96,8 @@ class Page {
   Rows parameters() const {
     Rows rows;
     each(SlotKind::param, [&](const SlotSpec& s, bool absent) {
-      rows.push_back({code(s.name), s.unit, absent ? "" : fmt::format("{}", s.fallback),
-                      absent ? "" : to_string(s.range), marked(s, absent)});
+      rows.push_back(
+          {code(s.name), s.unit, fmt::format("{}", s.fallback), to_string(s.range), marked(s, absent)});
     });
     return rows;
   }
@@ -141,7 +141,7 @@ class Page {
     each(kind, [&](const SlotSpec& s, bool absent) {
       const std::string initial =
           s.initial_param >= 0 ? code(name(s.initial_param)) : fmt::format("{}", s.fallback);
-      rows.push_back({code(s.name), s.unit, absent ? "" : initial, marked(s, absent)});
+      rows.push_back({code(s.name), s.unit, initial, marked(s, absent)});
     });
     return rows;
   }
@@ -155,7 +155,7 @@ class Page {
   Rows crossings() const {
     Rows rows;
     each(SlotKind::crossing, [&](const SlotSpec& s, bool absent) {
-      rows.push_back({code(s.name), absent ? "" : to_text(s.direction), marked(s, absent)});
+      rows.push_back({code(s.name), to_text(s.direction), marked(s, absent)});
     });
     return rows;
   }
