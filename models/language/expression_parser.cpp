@@ -238,7 +238,8 @@ class ExpressionParser {
   }
 
   std::string unexpected() const {
-    return at_ < text_.size() ? message::unexpected(text_.substr(at_, 1)) : message::expression_ends();
+    return at_ < text_.size() ? message::unexpected(first_character(text_.substr(at_)))
+                              : message::expression_ends();
   }
   void skip_space() {
     while (at_ < text_.size() && std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos)

@@ -29,7 +29,7 @@ Number digits(std::string_view text, std::size_t& at) {
   const std::size_t first = at;
   const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), result.value);
   if (error == std::errc::invalid_argument)
-    throw TextError(first, message::unexpected(text.substr(first, 1)));
+    throw TextError(first, message::unexpected(first_character(text.substr(first))));
   if (error != std::errc()) throw TextError(first, message::number_out_of_reach());
   at = static_cast<std::size_t>(end - text.data());
   result.exact = exact_decimal(text.substr(first, at - first));
@@ -74,10 +74,24 @@ Formula::Node in_unit(const Number& number, const Unit& unit) {
   return node;
 }
 
+/// The name of a unit may hold letters that no other name holds: the micro sign, Greek mu and omega, ohm
+/// sign.
+std::string_view leading_unit_name(std::string_view text) {
+  std::size_t end = 0;
+  while (true) {
+    const std::string_view rest = text.substr(end), letter = first_character(rest);
+    const bool of_units =
+        letter == "\u00B5" || letter == "\u03BC" || letter == "\u03A9" || letter == "\u2126";
+    const std::size_t length = of_units ? letter.size() : leading_name(rest).size();
+    if (length == 0) return text.substr(0, end);
+    end += length;
+  }
+}
+
 /// "3 mmm", "12 V" with a parameter V: after a number, a name that is no unit.
 void refuse_name(std::string_view text, std::size_t first, std::size_t at, const EndsUnit& ends_unit) {
   const std::size_t start = skip_space(text, at);
-  const std::string_view name = leading_name(text.substr(start));
+  const std::string_view name = leading_unit_name(text.substr(start));
   if (name.empty() || is_reserved(name)) return;
   const std::size_t behind = skip_space(text, start + name.size());
   if (behind < text.size() && text[behind] == '(') {

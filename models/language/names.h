@@ -21,5 +21,7 @@ using NameIndex = NameMap<int>;
 bool is_name(std::string_view text);
 /// The name that a text starts with; empty when it starts with none.
 std::string_view leading_name(std::string_view text);
+/// The first character of UTF-8 text with all its bytes; empty at the end.
+std::string_view first_character(std::string_view text);
 
 }  // namespace flyball
