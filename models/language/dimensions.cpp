@@ -25,6 +25,20 @@ std::optional<Dimension> combined(const Dimension& a, const Dimension& b, Combin
   return result;
 }
 
+/// Units with a name of their own, by which people know them in a message.
+const char* named_unit(const Dimension& dimension) {
+  static const std::vector<std::pair<Dimension, const char*>> named = [] {
+    std::vector<std::pair<Dimension, const char*>> all;
+    for (const char* unit : {"N", "J", "W", "Pa", "V", "ohm", "F", "H", "T"})
+      all.emplace_back(parse_unit(unit).dimension, unit);
+    return all;
+  }();
+  for (const auto& [known, unit] : named) {
+    if (known == dimension) return unit;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 std::optional<Dimension> multiply(const Dimension& a, const Dimension& b) {
@@ -46,6 +60,7 @@ std::optional<Dimension> power(const Dimension& a, const Rational& exponent) {
 }
 
 std::string to_string(const Dimension& dimension) {
+  if (const char* name = named_unit(dimension)) return name;
   // kg first, as the field writes it.
   constexpr std::array<std::size_t, 7> order{1, 0, 2, 3, 4, 5, 6};
   std::string above, below;

@@ -45,7 +45,7 @@ std::optional<Dimension> divide(const Dimension& a, const Dimension& b);
 /// a^exponent; nothing when an exponent is no whole number.
 std::optional<Dimension> power(const Dimension& a, const Rational& exponent);
 
-/// "kg*m/s^2"; "1" for a number.
+/// "V" where the unit has a name, else "kg*m^2/s"; "1" for a number. A torque shows as "J".
 std::string to_string(const Dimension& dimension);
 
 }  // namespace flyball

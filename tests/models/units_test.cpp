@@ -125,8 +125,8 @@ TEST_CASE("units that are wrong say where and what") {
 }
 
 TEST_CASE("dimensions are written as units") {
-  CHECK(to_string(parse_unit("N").dimension) == "kg*m/s^2");
-  CHECK(to_string(parse_unit("V").dimension) == "kg*m^2/(s^3*A)");
+  CHECK(to_string(parse_unit("N").dimension) == "N");
+  CHECK(to_string(parse_unit("V").dimension) == "V");
   CHECK(to_string(parse_unit("rad").dimension) == "1");
   CHECK(to_string(parse_unit("Hz").dimension) == "1/s");
   // What is written is read back.
