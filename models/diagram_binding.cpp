@@ -44,7 +44,21 @@ std::optional<Binding> ModelParameters::bind(const TomlValue& value, const std::
     return std::nullopt;
   }
   const auto parsed = formula(value, {});
-  return parsed ? bind(value, *parsed, unit) : std::nullopt;
+  return parsed ? bind(value, *parsed, wanted_unit(value, unit)) : std::nullopt;
+}
+
+/// Where no unit is declared, an override keeps the dimension of the value that it replaces.
+std::string ModelParameters::wanted_unit(const TomlValue& value, const std::string& declared) const {
+  if (declared != "any" || !value.replaced || !value.replaced->is(TomlValue::Kind::string)) return declared;
+  try {
+    const Formula replaced = parse_expression(value.replaced->text, Scope{&names_, {}});
+    std::vector<Quantity> quantities;
+    for (const int operand : operands(replaced)) quantities.push_back(entries_[operand].quantity);
+    const Quantity quantity = infer(replaced, quantities);
+    return quantity.known() ? to_string(quantity.dimension) : declared;
+  } catch (const TextError&) {
+    return declared;  // what was wrong in the file is no longer there
+  }
 }
 
 std::optional<Binding> ModelParameters::bind(const TomlValue& value, const Formula& formula,

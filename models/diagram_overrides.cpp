@@ -46,9 +46,15 @@ TomlValue value_of(const std::string& text, int index) {
   return value;
 }
 
+/// What an override replaces stays known: it says which dimension is wanted.
+void replace(TomlValue& old, TomlValue value) {
+  value.replaced = old.replaced ? old.replaced : std::make_shared<const TomlValue>(std::move(old));
+  old = std::move(value);
+}
+
 void set(TomlValue& table, std::string_view key, TomlValue value) {
   if (TomlEntry* entry = find_entry(&table, key)) {
-    entry->value = std::move(value);
+    replace(entry->value, std::move(value));
   } else {
     table.entries.push_back({std::string(key), {}, std::move(value)});
   }
@@ -68,7 +74,7 @@ bool set_indexed(TomlValue& block, std::string_view name, TomlValue value) {
     target = &target->items[index];
     rest.remove_prefix(static_cast<std::size_t>(end - rest.data()) + 1);
   }
-  if (target != nullptr) *target = std::move(value);
+  if (target != nullptr) replace(*target, std::move(value));
   return target != nullptr;
 }
 
@@ -95,7 +101,7 @@ void apply_to_parameter(const Override& given, TomlValue value, TomlValue* param
   } else if (entry->value.is(Kind::table)) {
     set(entry->value, "value", std::move(value));
   } else {
-    entry->value = std::move(value);
+    replace(entry->value, std::move(value));
   }
 }
 

@@ -162,7 +162,8 @@ void ModelParameters::report_cycle(const std::vector<std::vector<int>>& uses,
 
 void ModelParameters::settle(Entry& entry) {
   if (entry.source == nullptr) return;
-  const std::string unit = entry.parameter.unit;
+  const std::string unit = wanted_unit(*entry.source, entry.parameter.unit);
+  entry.parameter.unit = unit;
   const auto binding = entry.formula ? bind(*entry.source, *entry.formula, unit) : bind(*entry.source, unit);
   if (!binding) return;
   entry.parameter.binding = *binding;

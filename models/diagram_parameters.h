@@ -58,6 +58,7 @@ class ModelParameters {
   std::vector<std::vector<int>> uses() const;
   void settle(Entry& entry);
   void check_range(const Entry& entry);
+  std::string wanted_unit(const TomlValue& value, const std::string& declared) const;
   std::optional<Binding> bind(const TomlValue& value, const Formula& formula, const std::string& unit);
   std::vector<int> operands(const Formula& formula) const;
   bool all_good(std::span<const int> operands) const;

@@ -26,7 +26,8 @@ struct TomlValue {
   double number = 0.0;  // of integers, too
   std::string text;     // of a string; of a number as it was written
   std::vector<TomlValue> items;
-  std::vector<TomlEntry> entries;  // of a table, in the order of the text
+  std::vector<TomlEntry> entries;             // of a table, in the order of the text
+  std::shared_ptr<const TomlValue> replaced;  // of an override: the value in the file
 
   bool is(Kind k) const { return kind == k; }
   bool numeric() const { return kind == Kind::integer || kind == Kind::number; }
