@@ -42,7 +42,7 @@ Json solver_of(const RunResult& result) {
 Json columns_of(const Log& log) {
   Json columns = Json::array({{{"name", "time"}, {"unit", "s"}}});
   for (const LogColumn& column : log.columns()) {
-    columns.push_back({{"name", column.name}, {"unit", column.unit}});
+    columns.push_back({{"name", column.name}, {"unit", column.unit == "any" ? "" : column.unit}});
   }
   return columns;
 }
@@ -61,20 +61,14 @@ Json last_row_of(const Log& log) {
 
 std::string metadata_json(const RunResult& result, const RunInputs& inputs, std::string_view csv_name,
                           std::string_view csv) {
-  Json json = {{"flyball", flyball_version()},
-               {"status", to_string(result.status)},
-               {"reason", result.reason},
-               {"model", model_of(result, inputs)},
-               {"stop", result.settings.stop},
-               {"end", result.end},
-               {"wall_time", result.wall_time},
-               {"solver", solver_of(result)},
-               {"rows", result.log.rows()},
-               {"columns", columns_of(result.log)},
-               {"last_row", last_row_of(result.log)},
+  Json json = {{"flyball", flyball_version()},      {"status", to_string(result.status)},
+               {"reason", result.reason},           {"model", model_of(result, inputs)},
+               {"stop", result.settings.stop},      {"end", result.end},
+               {"solver", solver_of(result)},       {"rows", result.log.rows()},
+               {"columns", columns_of(result.log)}, {"last_row", last_row_of(result.log)},
                {"libraries", Json::object()}};
   for (const Version& library : library_versions()) json["libraries"][library.name] = library.number;
-  if (!csv_name.empty()) json["csv"] = {{"file", csv_name}, {"checksum", fingerprint(csv)}};
+  if (!csv.empty()) json["csv"] = {{"file", csv_name}, {"checksum", fingerprint(csv)}};
   // A path need not be UTF-8, JSON must be.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }

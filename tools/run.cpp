@@ -79,7 +79,8 @@ int run_command(const RunOptions& options) {
   if (result.status == RunStatus::stopped)
     complain(fmt::format("{}: error: {}\n", model.name, result.reason));
   if (options.json) {
-    print(metadata_json(result, inputs, options.output));
+    const auto sidecar = std::filesystem::path(options.output).replace_extension("json");
+    print(written.files.empty() ? metadata_json(result, inputs) : read_file(sidecar));
   } else if (!options.quiet) {
     print(report(result, inputs, options, written));
   }
