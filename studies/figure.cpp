@@ -21,7 +21,8 @@ std::string axis_label(const std::string& name, const std::string& unit) {
 constexpr std::string_view style = R"(if (!exists("format")) format = 'svg'
 if (!exists("figure")) figure = stem . '.' . format
 if (format eq 'png') {{
-  set terminal pngcairo size 1200,{height} font 'DejaVu Sans,13' background '#ffffff'
+  # Twice the size with everything on it: a curve that is nearly level shows its pixels else.
+  set terminal pngcairo size 2400,{height} font 'DejaVu Sans,13' fontscale 2 linewidth 2 background '#ffffff'
 }} else {{
   set terminal svg size 900,{svg_height} font 'DejaVu Sans,12' background '#ffffff'
 }}
@@ -111,7 +112,7 @@ std::string gnuplot_script(const Figure& figure, const std::string& stem) {
   std::string script =
       fmt::format("# Run in this folder:  gnuplot FILE  or  gnuplot -e \"format = 'png'\" FILE\nstem = {}\n",
                   gnuplot_quoted(stem));
-  script += fmt::format(style, fmt::arg("height", height), fmt::arg("svg_height", height * 3 / 4));
+  script += fmt::format(style, fmt::arg("height", 2 * height), fmt::arg("svg_height", height * 3 / 4));
   if (figure.end > 0.0) script += fmt::format("set xrange [0:{}]\n", figure.end);
   script +=
       fmt::format("set multiplot layout {},1 title {} noenhanced\n", panels, gnuplot_quoted(figure.title));
