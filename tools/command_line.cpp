@@ -90,7 +90,9 @@ void add_output(CLI::App* command, RunOptions& options) {
                                             : EventRows::both;
   };
   command
-      ->add_option_function<std::string>("--event-rows", read_rows, "Rows at jumps besides the asked times")
+      ->add_option_function<std::string>(
+          "--event-rows", read_rows,
+          "Rows at jumps besides the asked times: before and after, after, or none")
       ->check(CLI::IsMember({"both", "after", "none"}));
 }
 
