@@ -93,8 +93,10 @@ CvodeStepper::CvodeStepper(int method, System<double>& system, const StepperOpti
   check(CVodeSetUserData(cvode, this), "CVodeSetUserData", cvode);
   check(CVodeSStolerances(cvode, options.rtol, options.atol), "CVodeSStolerances", cvode);
   check(CVodeSetMaxStep(cvode, options.max_step), "CVodeSetMaxStep", cvode);
-  // After an instant the remembered size may be far too long, as when rest ends: 7 failures would not do.
+  // After an instant the remembered size may be far too long, as when rest ends: the 7 and 10 cuts of
+  // CVODE would not do.
   check(CVodeSetMaxErrTestFails(cvode, 40), "CVodeSetMaxErrTestFails", cvode);
+  check(CVodeSetMaxConvFails(cvode, 40), "CVodeSetMaxConvFails", cvode);
   // Steps lost in rounding are an error here, so no warnings are wanted.
   check(CVodeSetMaxHnilWarns(cvode, -1), "CVodeSetMaxHnilWarns", cvode);
   if (size_ == 0) return;

@@ -367,6 +367,31 @@ TEST_CASE("CVODE hands the size of a first step to the next restart") {
   }
 }
 
+TEST_CASE("CVODE comes down from a remembered step that a jump made far too long") {
+  for (const std::string& method : multistep) {
+    INFO(method);
+    const double k = 1e4, tolerance = 1e-10;
+    const auto rates = [=](double, const double* x, double* dx) { dx[0] = k * (1.0 - x[0]); };
+    const auto jacobian = [=](double, const double*, double* values) { values[0] = -k; };
+    StiffSystem system(dense_pattern(1), rates, jacobian);
+    const auto stepper =
+        make_stepper(method, system, {.rtol = tolerance, .atol = tolerance, .max_step = 1.0});
+    // As rest leaves it. The error of a first step h is (k h)^2 / 2, so h must fall to about 1e-9 s.
+    StepMemory memory;
+    memory.size = 1.0;
+    const double start = 0.0, stop = 2.0 / k;
+    stepper->restart(0.0, &start, memory, true);
+    double t = 0.0;
+    do {
+      t = stepper->step(1.0, memory);
+    } while (t < stop);
+    // As above: the errors of all steps add up, each at most twice the tolerance.
+    const double steps = static_cast<double>(stepper->statistics().steps);
+    CHECK(std::fabs(stepper->state()[0] + std::expm1(-k * t)) < 2.0 * tolerance * steps);
+    CHECK(stepper->statistics().rejected > 0);
+  }
+}
+
 TEST_CASE("CVODE without states steps by max_step") {
   for (const std::string& method : multistep) {
     StiffSystem system(
