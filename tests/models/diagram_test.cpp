@@ -303,6 +303,27 @@ wires = ["x -> k -> x"]
 )toml")) == Names{"x", "k"});
 }
 
+TEST_CASE("overrides keep the dimension of what they replace") {
+  const std::string_view text = R"toml(flyball = 1
+[parameters]
+J = "500 g*cm^2"
+free = 2
+[blocks]
+c = { type = "Constant", value = "-12 V" }
+)toml";
+  const auto complaint = [&](const std::vector<Override>& overrides) {
+    Diagnostics diagnostics("m.toml");
+    read_diagram(text, diagnostics, overrides);
+    const auto all = diagnostics.sorted();
+    return all.empty() ? std::string() : all[0].message;
+  };
+  CHECK(complaint({{"J", "500 mm"}}) == "--set J: expected kg*m^2, found m");
+  CHECK(complaint({{"J", "1"}, {"J", "500 mm"}}) == "--set J: expected kg*m^2, found m");
+  CHECK(complaint({{"c.value", "5 m"}}) == "--set c.value: expected V, found m");
+  CHECK(complaint({{"J", "600 g*cm^2"}, {"free", "3 m"}, {"c.value", "6 N*m/s/A"}}) == "");
+  CHECK(complaint({{"J", "6e-5"}}) == "");
+}
+
 TEST_CASE("overrides replace parameters of the model and of blocks") {
   const Diagram d = diagram(arc, {{"V", "2*L/(1 s)"},
                                   {"K_gamma", "3"},

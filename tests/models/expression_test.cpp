@@ -246,6 +246,8 @@ TEST_CASE("dimensions that contradict each other are refused where they meet") {
   CHECK(wrong("2^(3*L)") == "4: expected a plain number, found m");
   CHECK(wrong("atan2(L, V)") == "0: m and m/s cannot be added or compared");
   CHECK(wrong("n + V") == "");
+  CHECK(wrong("2 \u00B5x").find("2: unknown unit \"\u00B5x\"") == 0);
+  CHECK(wrong("3 \u00D7 4") == "2: unexpected \"\u00D7\"");
 }
 
 TEST_CASE("hertz is no rad/s") {
