@@ -74,6 +74,11 @@ TEST_CASE("Result: the sidecar says what the rows are, where they came from and 
   CHECK(std::ranges::count(csv, '\n') == 12);
   CHECK(json["csv"]["file"] == "a.csv");
   CHECK(json["csv"]["checksum"] == fingerprint(csv));
+  const RunInputs inputs{"decay.toml", std::string(decay), overrides};
+  CHECK_FALSE(nlohmann::json::parse(metadata_json(result, inputs)).contains("csv"));
+  // Another run takes another time, and says the same.
+  CHECK(metadata_json(run(overrides), inputs, "a.csv", csv) == read_file(folder / "a.json"));
+  CHECK(json["columns"][1]["unit"] == "");
   CHECK(json["model"]["hash"] == fingerprint(decay));
   CHECK(json["model"]["set"]["k.gain"] == "-2");
   CHECK(json["columns"][0]["unit"] == "s");
