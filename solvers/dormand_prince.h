@@ -27,6 +27,7 @@ class DormandPrince final : public Stepper<T> {
   const T* state() const override { return row(after); }
   void interpolate(T t, T* x) override;
   bool ends_with_rates() const override { return true; }
+  bool extension_is_quartic() const override { return true; }
 
  private:
   // Rows of the storage. The seven rates come first, so that the rate of stage j is row j.

@@ -52,6 +52,7 @@ class FixedStep : public Stepper<T> {
 
   const T* state() const override { return row(after); }
   bool ends_with_rates() const override { return true; }
+  bool extension_is_quartic() const override { return true; }
 
  protected:
   static constexpr int before = 0, after = 1, rate_before = 2, rate_after = 3, shared_rows = 4;

@@ -64,6 +64,7 @@ Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings&
       stepper_(make_stepper(method_, system_, options_)),
       log_(*plan_),
       affine_log_(*plan_, plan_->logs, logged_slots(*plan_)),
+      polynomial_(log_.width()),
       time_(workspace_.values[0]) {
   if (settings.log_interval) {
     log_step_ = static_cast<double>(settings.log_interval->numerator());
@@ -107,7 +108,7 @@ bool Simulator::advance() {
   const double due = tick - first <= same_instant(first) ? tick : first;
   const double limit = std::min(due, settings_.stop);
   bool located = false;
-  double end = stepper_->step(limit, workspace_.step);
+  double end = step_end_ = stepper_->step(limit, workspace_.step);
   if (!zeros_.none()) end = locate(time_, end, limit, located);
   if (!outputs_are_finite(*plan_, workspace_))
     throw_first_bad({&plan_->rates, &plan_->zeros}, *plan_, workspace_);
@@ -222,12 +223,30 @@ void Simulator::log_at(double t) {
   if (!log_.append(workspace_.values)) throw_first_bad({&plan_->logs}, *plan_, workspace_);
 }
 
+/// Many rows of one step at once. False when the step has few, or is not of this kind.
+bool Simulator::log_as_polynomial(double last) {
+  constexpr std::int64_t worth_it = 8;
+  std::int64_t& k = workspace_.log_position;
+  if (log_time(k + worth_it) > last || !affine_log_.applies() || !stepper_->extension_is_quartic())
+    return false;
+  double* x = workspace_.values.data() + plan_->layout.first_state;
+  polynomial_.fit(time_, step_end_, [&](double t, double* row) {
+    stepper_->interpolate(t, x);
+    affine_log_.evaluate(t, x, row, workspace_, workspace_.logs_map);
+  });
+  for (double t = log_time(k); t <= last; t = log_time(++k)) {
+    polynomial_.evaluate(t, row_after_.data());
+    if (!log_.append(t, row_after_.data())) log_at(t);
+  }
+  return true;
+}
+
 void Simulator::log_asked(double end, bool with_end) {
   if (!log_options_.enabled || log_.columns().empty()) return;
   const double last = with_end ? end : end - same_instant(end);
-  for (double t = log_time(workspace_.log_position); t <= last; t = log_time(workspace_.log_position)) {
-    log_at(t);
-    ++workspace_.log_position;
+  if (!log_as_polynomial(last)) {
+    std::int64_t& k = workspace_.log_position;
+    for (double t = log_time(k); t <= last; t = log_time(++k)) log_at(t);
   }
   if (!with_end || end < settings_.stop || (log_.rows() > 0 && log_.time(log_.rows() - 1) >= end)) return;
   log_at(end);

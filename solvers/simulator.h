@@ -6,6 +6,7 @@
 
 #include "solvers/instant.h"
 #include "solvers/log.h"
+#include "solvers/log_polynomial.h"
 #include "solvers/stepper.h"
 
 namespace flyball {
@@ -70,6 +71,7 @@ class Simulator {
   double log_time(std::int64_t k) const { return static_cast<double>(k) * log_step_ / log_divisor_; }
   bool asked(double t) const;
   void log_at(double t);
+  bool log_as_polynomial(double last);
   void log_asked(double end, bool with_end);
   void log_instant(bool was_asked);
 
@@ -87,9 +89,11 @@ class Simulator {
   std::unique_ptr<Stepper<double>> stepper_;
   Log log_;
   AffineProgram affine_log_;
+  LogPolynomial polynomial_;
   Due due_;
   std::vector<double> row_before_, row_after_;
   double time_;
+  double step_end_ = 0.0;  // of the last step, also where an event came before it
   double last_event_ = -1.0;
   int close_events_ = 0;     // located events in a row without progress
   std::vector<int> recent_;  // what fired in them, as Zeros counts

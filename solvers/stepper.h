@@ -72,6 +72,9 @@ class Stepper {
   /// Whether the last call of System::rates in `step` was at the end point: its outputs can then be used.
   virtual bool ends_with_rates() const = 0;
 
+  /// Whether `interpolate` is a polynomial of at most fourth degree in time.
+  virtual bool extension_is_quartic() const { return false; }
+
   const StepperStatistics& statistics() const { return statistics_; }
 
  protected:
