@@ -123,6 +123,30 @@ wires = ["v -> x", "x -> damping.x, drive.x, sum.u2", "v -> damping.v, drive.v",
                   (mu * (1.0 - x * x) - 2.0 * std::sin(3.0 * x) * (e - 1.0) / (e * e))) < 1e-14);
 }
 
+TEST_CASE("The Jacobian is that of the branches which are taken") {
+  const Model model = read_model(R"toml(
+flyball = 1
+[blocks]
+x = { type = "Integrator", initial = -2.0 }
+size = { type = "Abs" }
+y = { type = "Integrator", initial = 5.0 }
+limit = { type = "Saturation", upper = 1.0 }
+[diagram]
+wires = ["x -> size -> y -> limit -> x"]
+)toml");
+  Simulator simulator(model.plan, model.settings);
+  simulator.advance();
+  Workspace<double> workspace = simulator.workspace();
+  PlanSystem system(*model.plan, workspace);
+  std::vector<double> values(model.plan->pattern.row.size());
+  const std::vector<double> states(workspace.values.begin() + model.plan->layout.first_state,
+                                   workspace.values.begin() + model.plan->layout.first_held);
+  system.jacobian(simulator.time(), states.data(), values.data());
+  // y' = |x| = -x, and x' = 1 at the limit, whatever y is: one entry of -1, and zeros.
+  CHECK(std::ranges::count(values, -1.0) == 1);
+  CHECK(std::ranges::count(values, 0.0) == static_cast<long>(values.size()) - 1);
+}
+
 TEST_CASE("The Jacobian of a chain is tridiagonal, over all passes of colours") {
   const Model model = chain(9);
   std::vector<int> place;
