@@ -15,9 +15,8 @@ class Watch {
   ~Watch() { Spy::seen = nullptr; }
 };
 
-}  // namespace
-
-TEST_CASE("S1: nothing but states moves during a step") {
+/// A sine through a limit, a step and a sampled sine, all of them into a Spy.
+Model watched_diagram() {
   DiagramBuilder diagram;
   diagram.add("SineWave", "sine", {{"frequency", 3.0}});
   diagram.add("Saturation", "limit", {{"upper", 0.5}, {"lower", -0.5}});
@@ -32,7 +31,13 @@ TEST_CASE("S1: nothing but states moves during a step") {
   diagram.wire("hold.y", "sum.u3");
   diagram.wire("sum.y", "spy.u");
   diagram.simulation.stop = 5.0;
-  Run run(diagram.build());
+  return diagram.build();
+}
+
+}  // namespace
+
+TEST_CASE("S1: nothing but states moves during a step") {
+  Run run(watched_diagram());
   run.advance();
 
   const Workspace<double>& now = run.simulator().workspace();
