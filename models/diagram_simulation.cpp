@@ -8,7 +8,7 @@ namespace flyball {
 namespace {
 
 const std::vector<std::string>& methods() {
-  static const std::vector<std::string> names{"auto", "dp5", "rk4", "euler", "adams", "bdf"};
+  static const std::vector<std::string> names{"auto", "dp5", "rk4", "euler", "exact", "adams", "bdf"};
   return names;
 }
 

@@ -33,6 +33,13 @@ void PlanSystem::rates(double t, const double* x, double* dx) {
   if (!all_finite(dx, size())) throw_first_bad({&plan_.rates}, plan_, workspace_);
 }
 
+const std::vector<double>* PlanSystem::linear_part() const {
+  const Workspace<double>::Affine& map = workspace_.rates_map;
+  const bool constant = affine_.applies() && !map.stale &&
+                        std::ranges::all_of(map.slope, [](double slope) { return slope == 0.0; });
+  return constant ? &map.matrix : nullptr;
+}
+
 void PlanSystem::load_jets() {
   std::ranges::transform(workspace_.values, jets_.values.begin(), [](double x) { return Jet(x); });
   jets_.bits = workspace_.bits;

@@ -19,6 +19,8 @@ class PlanSystem final : public System<double> {
   const Sparsity& pattern() const override { return plan_.pattern; }
   void jacobian(double t, const double* x, double* values) override;
 
+  const std::vector<double>* linear_part() const override;
+
   /// Whether `rates` leaves the outputs behind it in the workspace, at its point.
   bool rates_give_outputs() const { return !affine_.applies(); }
 

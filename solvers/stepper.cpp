@@ -4,6 +4,7 @@
 
 #include "solvers/cvode.h"
 #include "solvers/dormand_prince.h"
+#include "solvers/exact_step.h"
 #include "solvers/fixed_step.h"
 
 namespace flyball {
@@ -25,6 +26,7 @@ constexpr Method methods[] = {
     {"dp5", make<DormandPrince<double>>},
     {"rk4", make<RungeKutta4<double>>},
     {"euler", make<Euler<double>>},
+    {"exact", make<ExactStep>},
     {"adams", make_adams},
     {"bdf", make_bdf},
 };

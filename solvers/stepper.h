@@ -24,6 +24,10 @@ class System {
   virtual const Sparsity& pattern() const = 0;
   /// `values[k]` belongs to pattern().row[k].
   virtual void jacobian(double t, const double* x, double* values) = 0;
+
+  /// The matrix A, by rows, where the rates are A x + b with constant A and b until the next instant; else
+  /// nullptr. Known after the first call of `rates` behind an instant.
+  virtual const std::vector<double>* linear_part() const { return nullptr; }
 };
 
 struct StepperOptions {
@@ -81,7 +85,8 @@ class Stepper {
   StepperStatistics statistics_;
 };
 
-/// A stepper by the name of its method: dp5, rk4, euler (any scalar), adams, bdf (CVODE, double).
+/// A stepper by the name of its method: dp5, rk4, euler (any scalar), exact (of affine systems), adams, bdf
+/// (CVODE, double).
 std::unique_ptr<Stepper<double>> make_stepper(const std::string& method, System<double>& system,
                                               const StepperOptions& options);
 /// The methods of `make_stepper`, in the order of the documentation.

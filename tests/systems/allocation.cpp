@@ -1,31 +1,8 @@
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "tests/allocations.h"
 #include "tests/systems/harness.h"
 
 using namespace flyball;
 using namespace flyball::test;
-
-namespace {
-
-std::atomic<long> allocations{0};
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 TEST_CASE("No allocation in a step, hit, alarm or event after the first of its kind") {
   for (const std::string method : {"dp5", "rk4", "euler", "adams", "bdf"}) {
@@ -56,10 +33,10 @@ solver = { method = ")toml" + method +
     const auto done = [&] { return simulator.statistics(); };
     while (done().hits < 20 || done().events < 10 || done().alarms < 10) simulator.advance();
     const RunStatistics before = done();
-    const long allocated = allocations;
+    const long allocated = allocations();
     while (simulator.advance()) {
     }
-    const long made = allocations - allocated;
+    const long made = allocations() - allocated;
     CHECK(made == 0);
     CHECK(done().hits - before.hits > 200);
     CHECK(done().events - before.events > 50);
