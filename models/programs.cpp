@@ -16,22 +16,8 @@ struct Call {
   auto operator<=>(const Call&) const = default;
 };
 
-Kernels<double>::Sweep sweep_of(const Kernels<double>& k, Phase phase) {
-  switch (phase) {
-    case Phase::outputs:
-      return k.outputs;
-    case Phase::rates:
-      return k.rates;
-    case Phase::relations:
-      return k.relations;
-    case Phase::crossings:
-      return k.crossings;
-    default:
-      return k.schedule;
-  }
-}
-
-Kernels<Jet>::Sweep sweep_of(const Kernels<Jet>& k, Phase phase) {
+template <class T>
+typename Kernels<T>::Sweep sweep_of(const Kernels<T>& k, Phase phase) {
   switch (phase) {
     case Phase::outputs:
       return k.outputs;

@@ -128,9 +128,13 @@ void Zeros::force() {
     } else {
       workspace_.sides[w.number] = up ? 1 : -1;
     }
-    const int at = w.slot - plan_.layout.first_relation;
+  }
+  // The sweep goes block by block, and may round to the other side: what it will find is what must not count.
+  if (affine_.applies()) run(plan_.zeros, plan_, frame(plan_, workspace_));
+  for (const int k : changed_) {
+    const int at = watched_[k].slot - plan_.layout.first_relation;
     forced_[at] = 1;
-    forced_value_[at] = value(w.slot);
+    forced_value_[at] = value(watched_[k].slot);
     forced_now_.push_back(k);
   }
 }
