@@ -87,7 +87,6 @@ class Block {
   Param param_if(bool wanted, std::string name, double fallback, std::string unit, Range range,
                  std::string doc);
   Input input_if(bool wanted, std::string name, std::string unit, std::string doc);
-  State state_if(bool wanted, std::string name, double initial, std::string unit, std::string doc);
   Relation relation_if(bool wanted, std::string name, std::string doc);
   Crossing crossing_if(bool wanted, std::string name, Direction direction, std::string doc);
 

@@ -45,7 +45,6 @@ class Many {
 using Inputs = Many<Input>;
 using Outputs = Many<Output>;
 using States = Many<State>;
-using Helds = Many<Held>;
 using Relations = Many<Relation>;
 
 /// A position and heading in the plane, as a port with the elements x, y and theta.

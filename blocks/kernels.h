@@ -24,7 +24,39 @@ struct Kernels {
   Handler on_sample = nullptr;
   Handler on_time = nullptr;
   CrossingHandler on_crossing = nullptr;
+
+  /// What answers a phase that is no handler; null when the block has no such method.
+  Sweep sweep(Phase phase) const {
+    switch (phase) {
+      case Phase::outputs:
+        return outputs;
+      case Phase::rates:
+        return rates;
+      case Phase::relations:
+        return relations;
+      case Phase::crossings:
+        return crossings;
+      default:
+        return schedule;
+    }
+  }
 };
+
+/// The kind of slot that a phase writes, for a phase that is no handler. Of a state it is the rate.
+constexpr SlotKind result_of(Phase phase) {
+  switch (phase) {
+    case Phase::outputs:
+      return SlotKind::output;
+    case Phase::rates:
+      return SlotKind::state;
+    case Phase::relations:
+      return SlotKind::relation;
+    case Phase::crossings:
+      return SlotKind::crossing;
+    default:
+      return SlotKind::alarm;
+  }
+}
 
 /// The equations of a block type on each scalar. Room for more: a scalar is one more member.
 struct KernelTable {

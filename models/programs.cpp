@@ -16,22 +16,6 @@ struct Call {
   auto operator<=>(const Call&) const = default;
 };
 
-template <class T>
-typename Kernels<T>::Sweep sweep_of(const Kernels<T>& k, Phase phase) {
-  switch (phase) {
-    case Phase::outputs:
-      return k.outputs;
-    case Phase::rates:
-      return k.rates;
-    case Phase::relations:
-      return k.relations;
-    case Phase::crossings:
-      return k.crossings;
-    default:
-      return k.schedule;
-  }
-}
-
 constexpr int last_level = std::numeric_limits<int>::max();
 
 class ProgramWriter {
@@ -88,8 +72,8 @@ class ProgramWriter {
     op.object = &what;
     op.self = what.self.get();
     op.phase = call.phase;
-    op.on_double = sweep_of(what.type->kernels.on_double, call.phase);
-    op.on_jet = sweep_of(what.type->kernels.on_jet, call.phase);
+    op.on_double = what.type->kernels.on_double.sweep(call.phase);
+    op.on_jet = what.type->kernels.on_jet.sweep(call.phase);
     op.first = plan_.map[instance];
     op.stride = static_cast<int>(what.specification->slots.size());
     op.count = 1;

@@ -9,19 +9,6 @@ namespace {
 /// A multiplication with its addition costs about an eighth of a call of a small block.
 constexpr int entries_per_call = 8;
 
-SlotKind result_of(Phase phase) {
-  switch (phase) {
-    case Phase::outputs:
-      return SlotKind::output;
-    case Phase::rates:
-      return SlotKind::state;
-    case Phase::relations:
-      return SlotKind::relation;
-    default:
-      return SlotKind::crossing;
-  }
-}
-
 /// y = offset + slope t + matrix x; with the number of states known to the compiler, the loop over them is
 /// unrolled.
 template <int states>
@@ -75,12 +62,6 @@ void AffineProgram::evaluate(double t, const double* x, double* y, Workspace<dou
   product_(map, t, x, y, results(), states_);
 }
 
-double AffineProgram::along(int k, const double* dx, const Coefficients& map) const {
-  double sum = map.slope[k];
-  for (int j = 0; j < states_; ++j) sum += map.matrix[k * states_ + j] * dx[j];
-  return sum;
-}
-
 void AffineProgram::learn(double t, const double* x, double* y, Workspace<double>& workspace,
                           Coefficients& map) {
   workspace.values[0] = t;
@@ -118,8 +99,7 @@ void AffineProgram::differentiate(Workspace<double>& workspace, Coefficients& ma
     jet_rates_.resize(states_);
   }
   Workspace<Jet>& jets = jets_.front();
-  std::ranges::transform(workspace.values, jets.values.begin(), [](double v) { return Jet(v); });
-  jets.bits = workspace.bits;
+  lift(workspace, jets);
   const int m = results();
   map.matrix.resize(static_cast<std::size_t>(states_) * m);
   map.slope.resize(m);

@@ -27,9 +27,6 @@ class AffineProgram {
   /// bit or held value that scales something has changed, from the program on Jets. `x` are the states.
   void evaluate(double t, const double* x, double* y, Workspace<double>& workspace, Coefficients& map);
 
-  /// The time derivative of result k along rates `dx`. Only after `evaluate`.
-  double along(int k, const double* dx, const Coefficients& map) const;
-
  private:
   bool is_affine() const;
   int results() const { return of_rates_ ? states_ : static_cast<int>(slots_.size()); }

@@ -40,14 +40,9 @@ const std::vector<double>* PlanSystem::linear_part() const {
   return constant ? &map.matrix : nullptr;
 }
 
-void PlanSystem::load_jets() {
-  std::ranges::transform(workspace_.values, jets_.values.begin(), [](double x) { return Jet(x); });
-  jets_.bits = workspace_.bits;
-}
-
 void PlanSystem::jacobian(double t, const double* x, double* values) {
   place(t, x);
-  load_jets();
+  lift(workspace_, jets_);
   const Sparsity& pattern = plan_.pattern;
   Jet* states = jets_.values.data() + plan_.layout.first_state;
   const Frame<Jet> f = frame(plan_, jets_, jet_rates_.data());
@@ -73,7 +68,7 @@ void PlanSystem::jacobian(double t, const double* x, double* values) {
 }
 
 const std::vector<double>& PlanSystem::zero_rates(const double* dx) {
-  load_jets();
+  lift(workspace_, jets_);
   jets_.values[0].v[0] = 1.0;
   for (int k = 0; k < size(); ++k) jets_.values[plan_.layout.first_state + k].v[0] = dx[k];
   run(plan_.zeros, plan_, frame(plan_, jets_));
@@ -124,20 +119,21 @@ std::string readings(const BlockObject& object, const int* index, const Workspac
                         fmt::format("{} is {} at t = {} s{}", what, shown(value), t, read));
 }
 
+/// The number that this call made of a slot.
+double made(const Op& op, int slot, const Plan& plan, const Workspace<double>& workspace,
+            const std::vector<double>& dx) {
+  return op.phase == Phase::rates ? dx[slot - plan.layout.first_state] : workspace.values[slot];
+}
+
 /// The first slot that this call made bad; -1 when all is well.
 int bad_result(const Op& op, const int* index, const Plan& plan, const Workspace<double>& workspace,
                const std::vector<double>& dx) {
+  // A limit, and so a relation, may be infinite, and an alarm may never come.
+  const bool finite = op.phase == Phase::outputs || op.phase == Phase::rates;
   for (int s = 0; s < op.stride; ++s) {
-    const SlotKind kind = op.object->specification->slots[s].kind;
-    const double value = op.object->specification->slots[s].numeric() ? workspace.values[index[s]] : 0.0;
-    if (op.phase == Phase::outputs && kind == SlotKind::output && !std::isfinite(value)) return s;
-    if (op.phase == Phase::rates && kind == SlotKind::state &&
-        !std::isfinite(dx[index[s] - plan.layout.first_state])) {
-      return s;
-    }
-    if (op.phase == Phase::relations && kind == SlotKind::relation && std::isnan(value)) return s;
-    if (op.phase == Phase::crossings && kind == SlotKind::crossing && std::isnan(value)) return s;
-    if (op.phase == Phase::schedule && kind == SlotKind::alarm && std::isnan(value)) return s;
+    if (op.object->specification->slots[s].kind != result_of(op.phase)) continue;
+    const double value = made(op, index[s], plan, workspace, dx);
+    if (finite ? !std::isfinite(value) : std::isnan(value)) return s;
   }
   return -1;
 }
@@ -152,9 +148,8 @@ void check_call(const Op& op, int k, const Plan& plan, Workspace<double>& worksp
   const int* index = plan.index.data() + one.first;
   const int s = bad_result(one, index, plan, workspace, dx);
   if (s < 0) return;
-  const bool rate = op.phase == Phase::rates;
-  const double value = rate ? dx[index[s] - plan.layout.first_state] : workspace.values[index[s]];
-  throw_bad((rate ? "the rate of " : "") + plan.slot_name(index[s]), value, workspace.values[0],
+  throw_bad((op.phase == Phase::rates ? "the rate of " : "") + plan.slot_name(index[s]),
+            made(one, index[s], plan, workspace, dx), workspace.values[0],
             readings(*op.object, index, workspace));
 }
 

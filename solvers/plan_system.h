@@ -32,8 +32,6 @@ class PlanSystem final : public System<double> {
   const std::vector<double>& zero_rates(const double* dx);
 
  private:
-  void load_jets();
-
   const Plan& plan_;
   Workspace<double>& workspace_;
   AffineProgram affine_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "solvers/errors.h"
@@ -28,6 +29,11 @@ void derive(const Plan& plan, Workspace<T>& workspace) {
         d.formula->evaluate<T>([&](int k) { return workspace.values[d.operands[k]]; },
                                [](int, const T& a, const T& b) { return value_of(a) > value_of(b); });
   }
+}
+
+void lift(const Workspace<double>& from, Workspace<Jet>& to) {
+  std::ranges::transform(from.values, to.values.begin(), [](double x) { return Jet(x); });
+  to.bits = from.bits;
 }
 
 namespace {

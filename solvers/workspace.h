@@ -70,6 +70,9 @@ void run(const Program& program, const Plan& plan, const Frame<T>& f) {
 template <class T>
 void initialise(const Plan& plan, Workspace<T>& workspace);
 
+/// Gives a Jet workspace the numbers and bits of another one, without derivatives.
+void lift(const Workspace<double>& from, Workspace<Jet>& to);
+
 /// Recomputes derived parameters after a parameter was set.
 template <class T>
 void derive(const Plan& plan, Workspace<T>& workspace);

@@ -9,36 +9,36 @@
 
 namespace flyball {
 
-namespace {
-
-std::vector<int> watched_slots(const Plan& plan) {
-  std::vector<int> slots = plan.located_relations;
-  for (int k = 0; k < plan.layout.crossings(); ++k) slots.push_back(plan.layout.first_crossing + k);
-  return slots;
-}
-
-}  // namespace
-
 Zeros::Zeros(const Plan& plan, Workspace<double>& workspace)
     : plan_(plan),
       workspace_(workspace),
       first_crossing_(static_cast<int>(plan.located_relations.size())),
-      affine_(plan, plan.zeros, watched_slots(plan)),
-      affine_values_(watched_slots(plan).size()) {
-  for (const int slot : watched_slots(plan)) {
-    const int relation = slot - plan.layout.first_relation, crossing = slot - plan.layout.first_crossing;
-    if (crossing < 0) {
-      watched_.push_back({slot, true, relation, Direction::either});
-    } else {
-      watched_.push_back({slot, false, crossing, plan.crossing_records[crossing].direction});
-    }
-  }
+      watched_(watch(plan)),
+      affine_(plan, plan.zeros, slots_of(watched_)),
+      affine_values_(watched_.size()) {
   changed_.reserve(watched_.size());
   fired_.reserve(watched_.size());
   forced_now_.reserve(watched_.size());
   forced_.assign(plan.layout.size - plan.layout.first_relation, 0);
   forced_value_.assign(forced_.size(), 0.0);
   scale_.assign(watched_.size(), 0.0);
+}
+
+std::vector<Zeros::Watched> Zeros::watch(const Plan& plan) {
+  std::vector<Watched> watched;
+  for (const int slot : plan.located_relations) {
+    watched.push_back({slot, true, slot - plan.layout.first_relation, Direction::either});
+  }
+  for (int k = 0; k < plan.layout.crossings(); ++k) {
+    watched.push_back({plan.layout.first_crossing + k, false, k, plan.crossing_records[k].direction});
+  }
+  return watched;
+}
+
+std::vector<int> Zeros::slots_of(const std::vector<Watched>& watched) {
+  std::vector<int> slots;
+  for (const Watched& w : watched) slots.push_back(w.slot);
+  return slots;
 }
 
 int Zeros::side(const Watched& w) const {

@@ -66,6 +66,8 @@ class Zeros {
     Direction direction;
   };
 
+  static std::vector<Watched> watch(const Plan& plan);
+  static std::vector<int> slots_of(const std::vector<Watched>& watched);
   double value(int slot) const { return workspace_.values[slot]; }
   int side(const Watched& w) const;
   bool wanted(const Watched& w, double z) const;

@@ -46,7 +46,7 @@ class Bench {
     const Frame<T> frame = this->frame();
     const int* index = index_.data() + first * size_;
     if (!is_handler(phase)) {
-      const auto sweep = sweep_of(k, phase);
+      const auto sweep = k.sweep(phase);
       if (sweep != nullptr) sweep(object_.self.get(), frame, index, size_, count);
       return;
     }
@@ -61,20 +61,6 @@ class Bench {
   void run(Phase phase) { run(phase, 0, copies_); }
 
  private:
-  static auto sweep_of(const Kernels<T>& k, Phase phase) {
-    switch (phase) {
-      case Phase::outputs:
-        return k.outputs;
-      case Phase::rates:
-        return k.rates;
-      case Phase::relations:
-        return k.relations;
-      case Phase::crossings:
-        return k.crossings;
-      default:
-        return k.schedule;
-    }
-  }
   Frame<T> frame() {
     Frame<T> frame;
     frame.values = values.data();
