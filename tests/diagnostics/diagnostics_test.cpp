@@ -6,13 +6,14 @@
 
 #include "models/diagram.h"
 #include "tests/catch.h"
+#include "tests/source_dir.h"
 
 using namespace flyball;
 namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path folder = fs::path(FLYBALL_SOURCE_DIR) / "tests" / "diagnostics";
+const fs::path folder = fs::path(source_dir()) / "tests" / "diagnostics";
 
 std::string content(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);

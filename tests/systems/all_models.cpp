@@ -1,6 +1,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "tests/source_dir.h"
 #include "tests/systems/harness.h"
 
 using namespace flyball;
@@ -10,7 +11,7 @@ namespace {
 
 std::vector<std::string> model_files() {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(FLYBALL_SOURCE_DIR "/models")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source_dir() + "/models")) {
     if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
   }
   std::ranges::sort(files);

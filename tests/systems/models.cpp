@@ -1,6 +1,7 @@
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "tests/source_dir.h"
 #include "tests/systems/harness.h"
 
 using namespace flyball;
@@ -12,7 +13,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 Model shipped(const std::string& name, const std::vector<Override>& overrides = {}) {
-  return load_model(std::string(FLYBALL_SOURCE_DIR) + "/models/" + name + ".toml", overrides);
+  return load_model(source_dir() + "/models/" + name + ".toml", overrides);
 }
 
 /// In units of the tolerance of the run: the measure by which its solver accepted each step.

@@ -5,6 +5,7 @@
 
 #include "studies/run.h"
 #include "tests/catch.h"
+#include "tests/source_dir.h"
 #include "tools/model_file.h"
 
 using namespace flyball;
@@ -39,7 +40,7 @@ struct ArcRun {
 
 ArcRun run(const std::string& gain) {
   const ModelFile model =
-      load_model(FLYBALL_SOURCE_DIR "/models/line_arc/arc_error_loop.toml", {{"K_gamma", gain}});
+      load_model(source_dir() + "/models/line_arc/arc_error_loop.toml", {{"K_gamma", gain}});
   INFO(listing(model));
   REQUIRE(model.plan);
   SimulationSettings settings = model.plan->diagram->simulation;
