@@ -33,6 +33,7 @@ struct BlockType {
   std::string name;
   std::string family;
   std::string summary;
+  std::vector<std::string> aliases;  // what Modelica and Xcos call it
   bool differentiable = true;
   KernelTable kernels;
   std::shared_ptr<const Block> (*construct)(Settings* settings) = nullptr;
@@ -47,8 +48,11 @@ struct BlockType {
 /// All block types, in the order of the catalogue. Throws std::logic_error as `create` does.
 const std::vector<BlockType>& catalogue();
 
-/// nullptr when there is none of this name.
+/// By name or alias; nullptr when there is none.
 const BlockType* find_block_type(std::string_view name);
+
+/// All that `find_block_type` finds: names in the order of the catalogue, each before its aliases.
+const std::vector<std::string>& block_type_names();
 
 /// Describes a block type; `family` is its folder.
 template <class B>
@@ -57,6 +61,7 @@ BlockType describe(std::string name, std::string family) {
   type.name = std::move(name);
   type.family = std::move(family);
   type.summary = B::summary;
+  if constexpr (requires { B::aliases; }) type.aliases.assign(B::aliases.begin(), B::aliases.end());
   type.differentiable = kernel::differentiable<B>();
   type.kernels.on_double = kernel::compile<B, double>();
   if constexpr (kernel::differentiable<B>()) {

@@ -54,12 +54,6 @@ std::vector<std::string> setting_names(const Specification& spec) {
   return names;
 }
 
-std::vector<std::string> type_names() {
-  std::vector<std::string> names;
-  for (const BlockType& type : catalogue()) names.push_back(type.name);
-  return names;
-}
-
 }  // namespace
 
 void ModelBlocks::read(const TomlValue& section) {
@@ -100,7 +94,7 @@ const BlockType* ModelBlocks::type_of(const TomlEntry& entry) {
   }
   if (!report_.expect(*name, TomlValue::Kind::string, "the name of a block type in quotes")) return nullptr;
   const BlockType* type = find_block_type(name->text);
-  if (type == nullptr) report_.error_inside(*name, 0, message::unknown_type(name->text, type_names()));
+  if (type == nullptr) report_.error_inside(*name, 0, message::unknown_type(name->text, block_type_names()));
   return type;
 }
 

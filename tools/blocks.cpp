@@ -16,9 +16,7 @@ namespace fs = std::filesystem;
 
 const BlockType& find_block(const std::string& name) {
   if (const BlockType* type = find_block_type(name)) return *type;
-  std::vector<std::string> names;
-  for (const BlockType& type : catalogue()) names.push_back(type.name);
-  const auto close = nearest(name, names);
+  const auto close = nearest(name, block_type_names());
   throw UsageError(fmt::format(
       "there is no block \"{}\"{}", name,
       close ? fmt::format("; did you mean \"{}\"?", *close) : "; flyball blocks lists those that there are"));

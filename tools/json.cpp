@@ -71,7 +71,8 @@ Json port_json(const Specification& spec, const PortSpec& port) {
 Json block_json(const BlockType& type) {
   const BlockObject object = type.create();
   const Specification& spec = *object.specification;
-  Json json = {{"name", type.name}, {"family", type.family}, {"summary", type.summary}};
+  Json json = {
+      {"name", type.name}, {"family", type.family}, {"summary", type.summary}, {"aliases", type.aliases}};
   json["structure"] = Json::array();
   for (const StructureSpec& key : spec.structure) {
     json["structure"].push_back(

@@ -56,6 +56,8 @@ class Page {
     if (spec_.sampled()) page += " Sampled: evaluated at its hits, latched between.";
     if (!type_.differentiable) page += " Runs on numbers alone: contributes no derivative.";
     page += '\n';
+    if (!type_.aliases.empty())
+      page += fmt::format("\nAlso accepted as: `{}`.\n", fmt::join(type_.aliases, "`, `"));
     page += section("Structure", {"key", "default", "choices", "meaning"}, structure());
     page += section("Parameters", {"name", "unit", "default", "range", "meaning"}, parameters());
     page += section("Inputs", {"port", "unit", "elements", "unconnected", "meaning"}, ports(true));

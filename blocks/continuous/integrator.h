@@ -6,6 +6,7 @@ namespace flyball {
 struct Integrator : Block {
   static constexpr auto summary =
       "Integrates its input over time, between limits and with a reset where asked for.";
+  static constexpr std::array aliases{"Modelica.Blocks.Continuous.Integrator", "INTEGRAL_f", "INTEGRAL_m"};
   int reset = option("reset", "none", {"none", "rising", "falling", "either"},
                      "which change of the input `reset` sets the integral to `initial`");
   Param initial = param("initial", 0.0, "any", any, "value at the start");

@@ -7,6 +7,7 @@ namespace flyball {
 
 struct StateSpace : Block {
   static constexpr auto summary = "A linear system: x' = A x + B u, y = C x + D u.";
+  static constexpr std::array aliases{"Modelica.Blocks.Continuous.StateSpace", "CLSS", "CLSS_f"};
   Coefficients A = matrix("A", {{-1.0}}, "state matrix");
   Coefficients B = matrix("B", {{1.0}}, "input matrix");
   Coefficients C = matrix("C", {{1.0}}, "output matrix");

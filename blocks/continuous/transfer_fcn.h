@@ -7,6 +7,7 @@ namespace flyball {
 
 struct TransferFcn : Block {
   static constexpr auto summary = "A rational transfer function, numerator(s)/denominator(s).";
+  static constexpr std::array aliases{"Modelica.Blocks.Continuous.TransferFunction", "CLR", "CLR_f"};
   Coefficients numerator =
       coefficients("numerator", {1.0}, "any", "coefficient of the numerator, highest power of s first");
   Coefficients denominator = coefficients("denominator", {1.0, 1.0}, "any",

@@ -5,6 +5,7 @@ namespace flyball {
 
 struct UnitDelay : Block {
   static constexpr auto summary = "Delays its input by one sample time.";
+  static constexpr std::array aliases{"Modelica.Blocks.Discrete.UnitDelay", "DOLLAR", "DOLLAR_f", "DOLLAR_m"};
   SampleTime ts = sample_time();
   Param initial = param("initial", 0.0, "any", any, "output at the first hit");
   Input u = input("u", "any", "signal");

@@ -7,6 +7,7 @@ namespace flyball {
 
 struct Expression : Block {
   static constexpr auto summary = "A formula of its inputs and of parameters of the model.";
+  static constexpr std::array aliases{"EXPRESSION"};
   std::vector<std::string> names = list("inputs", {"u"}, "names of the inputs, as the formula uses them");
   Inputs u = inputs(names, "any", "variable of the formula");
   std::shared_ptr<const Formula> f =

@@ -5,6 +5,7 @@ namespace flyball {
 
 struct Product : Block {
   static constexpr auto summary = "Multiplies and divides its inputs.";
+  static constexpr std::array aliases{"Modelica.Blocks.Math.Product", "PRODUCT", "PROD_f"};
   std::string signs = text("signs", "**", "one * or / for each of the inputs u1, u2, …");
   Inputs u = inputs("u", static_cast<int>(signs.size()), "any", "factor or divisor");
   Output y = output("y", "any", "product of the inputs and of the reciprocals of divisors");

@@ -5,6 +5,7 @@ namespace flyball {
 
 struct Sum : Block {
   static constexpr auto summary = "Adds and subtracts its inputs.";
+  static constexpr std::array aliases{"Modelica.Blocks.Math.Add", "SUMMATION", "BIGSOM_f"};
   std::string signs = text("signs", "++", "one + or - for each of the inputs u1, u2, …");
   Inputs u = inputs("u", static_cast<int>(signs.size()), "any", "term");
   Output y = output("y", "any", "sum of the inputs with their signs");

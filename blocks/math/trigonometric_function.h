@@ -5,6 +5,7 @@ namespace flyball {
 
 struct TrigonometricFunction : Block {
   static constexpr auto summary = "A trigonometric or hyperbolic function of its input.";
+  static constexpr std::array aliases{"TrigFun"};
   // In the order of `choices`.
   enum class Function { sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, atan2 };
   Function function = static_cast<Function>(option(

@@ -5,6 +5,7 @@ namespace flyball {
 
 struct DeadZone : Block {
   static constexpr auto summary = "Zero inside a zone, and the distance from the zone outside of it.";
+  static constexpr std::array aliases{"Modelica.Blocks.Nonlinear.DeadZone", "DEADBAND"};
   Param lower = param("lower", -0.5, "any", any, "lower end of the zone");
   Param upper = param("upper", 0.5, "any", any, "upper end of the zone");
   Input u = input("u", "any", "signal");

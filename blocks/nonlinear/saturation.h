@@ -5,6 +5,7 @@ namespace flyball {
 
 struct Saturation : Block {
   static constexpr auto summary = "Limits its input.";
+  static constexpr std::array aliases{"Modelica.Blocks.Nonlinear.Limiter", "SATURATION", "SAT_f"};
   Param lower = param("lower", -1.0, "any", any, "lower limit");
   Param upper = param("upper", 1.0, "any", any, "upper limit");
   Input u = input("u", "any", "signal");

@@ -5,6 +5,7 @@ namespace flyball {
 
 struct Demux : Block {
   static constexpr auto summary = "Splits a vector signal into its elements.";
+  static constexpr std::array aliases{"Modelica.Blocks.Routing.DeMultiplex", "DEMUX", "DEMUX_f"};
   int width = count("outputs", 2, 1, 1000, "number of elements");
   Inputs u = input_vector("u", width, "any", "vector");
   Outputs y = outputs_each("y", width, "any", "element of the vector");

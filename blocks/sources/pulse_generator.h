@@ -5,6 +5,7 @@ namespace flyball {
 
 struct PulseGenerator : Block {
   static constexpr auto summary = "Rectangular pulses at regular times.";
+  static constexpr std::array aliases{"Modelica.Blocks.Sources.Pulse", "PULSE_SC"};
   Param amplitude = param("amplitude", 1.0, "any", any, "value during a pulse; 0 between pulses");
   Param period = param("period", 1.0, "s", positive, "time from one pulse to the next");
   Param duty = param("duty", 0.5, "1", {0.0, 1.0, true, true}, "width of a pulse over the period");

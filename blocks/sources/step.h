@@ -5,6 +5,7 @@ namespace flyball {
 
 struct Step : Block {
   static constexpr auto summary = "Jumps from one value to another at a given time.";
+  static constexpr std::array aliases{"Modelica.Blocks.Sources.Step", "STEP", "STEP_FUNCTION"};
   Param time = param("time", 1.0, "s", any, "time of the step");
   Param before = param("before", 0.0, "any", any, "value before the step");
   Param after = param("after", 1.0, "any", any, "value from the step on");

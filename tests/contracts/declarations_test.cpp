@@ -61,13 +61,20 @@ TEST_CASE("defaults lie in their ranges") {
   }
 }
 
-TEST_CASE("block types are found by their names, which are unique") {
+TEST_CASE("block types are found by their names and aliases, which are unique") {
   std::set<std::string> names;
   for (const BlockType& type : catalogue()) {
-    INFO(type.name);
-    CHECK(names.insert(type.name).second);
-    CHECK(find_block_type(type.name) == &type);
+    std::vector<std::string> all = type.aliases;
+    all.push_back(type.name);
+    for (const std::string& name : all) {
+      INFO(name);
+      CHECK(names.insert(name).second);
+      CHECK(find_block_type(name) == &type);
+    }
   }
+  CHECK(names == std::set<std::string>(block_type_names().begin(), block_type_names().end()));
+  CHECK(find_block_type("GAINBLK_f") == find_block_type("Gain"));
+  CHECK(find_block_type("Modelica.Blocks.Continuous.Integrator") == find_block_type("Integrator"));
   CHECK(find_block_type("Gian") == nullptr);
 }
 

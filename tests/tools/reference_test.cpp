@@ -35,6 +35,11 @@ TEST_CASE("Reference: what reads what comes from the equations") {
   CHECK_THAT(reference_page(*find_block_type("PID")), Catch::Contains("| rate of `integral` | `Ki`, `e` |"));
 }
 
+TEST_CASE("Reference: a page says under which other names its block is accepted") {
+  CHECK_THAT(reference_page(*find_block_type("Gain")),
+             Catch::Contains("Also accepted as: `Modelica.Blocks.Math.Gain`, `GAINBLK`, `GAINBLK_f`."));
+}
+
 TEST_CASE("Reference: ranges read like mathematics") {
   CHECK(to_string(any) == "any");
   CHECK(to_string(positive) == "> 0");
