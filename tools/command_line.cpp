@@ -120,6 +120,27 @@ CLI::App* add_check(CLI::App& app, CheckOptions& options) {
   return command;
 }
 
+CLI::App* add_graph(CLI::App& app, GraphOptions& options) {
+  CLI::App* command =
+      app.add_subcommand("graph", "Draw the diagram of a model, or list its order of execution");
+  command->add_option("MODEL", options.model, "Model file")->required()->type_name("FILE");
+  const auto is_figure = [](const std::string& name) -> std::string {
+    const auto extension = std::filesystem::path(name).extension();
+    if (extension == ".svg" || extension == ".png" || extension == ".gv") return {};
+    return fmt::format("expected the name of a .svg, .png or .gv file, found \"{}\"", name);
+  };
+  command
+      ->add_option("-o,--output", options.output,
+                   "The drawing, or the text for Graphviz that is else printed")
+      ->type_name("FILE")
+      ->check(is_figure);
+  command->add_flag("--order", options.order, "Print the order of execution with the rates");
+  add_overrides(command, options.overrides);
+  command->add_flag("--json", options.json, "Print blocks, wires and order as JSON");
+  command->footer("Example:\n  flyball graph models/classic/two_rate_loop.toml --output loop.svg");
+  return command;
+}
+
 CLI::App* add_blocks(CLI::App& app, BlocksOptions& options) {
   CLI::App* command = app.add_subcommand("blocks", "List the blocks, or show the reference page of one");
   command->add_option("NAME", options.name, "Block type")->type_name("NAME");
@@ -143,9 +164,11 @@ int parse_and_run(int argc, const char* const* argv) {
   CLI::App app("Flyball simulates block diagrams that are written as text.", "flyball");
   RunOptions run;
   CheckOptions check;
+  GraphOptions graph;
   BlocksOptions blocks;
   const CLI::App* run_app = add_run(app, run);
   const CLI::App* check_app = add_check(app, check);
+  const CLI::App* graph_app = add_graph(app, graph);
   add_blocks(app, blocks);
   app.set_version_flag("--version", "flyball " + flyball_version());
   app.require_subcommand(1);
@@ -157,6 +180,7 @@ int parse_and_run(int argc, const char* const* argv) {
   }
   if (run_app->parsed()) return run_command(run);
   if (check_app->parsed()) return check_command(check);
+  if (graph_app->parsed()) return graph_command(graph);
   return blocks_command(blocks);
 }
 

@@ -36,6 +36,14 @@ struct CheckOptions {
   bool json = false;
 };
 
+struct GraphOptions {
+  std::string model;
+  std::string output;  // .svg, .png or .gv file; empty: the graph is printed
+  std::vector<Override> overrides;
+  bool order = false;
+  bool json = false;
+};
+
 struct BlocksOptions {
   std::string name;      // empty: all
   std::string markdown;  // folder to write the reference to; empty: none
@@ -45,6 +53,7 @@ struct BlocksOptions {
 // The subcommands. Each returns the exit status; FileError and UsageError are left to the caller.
 int run_command(const RunOptions& options);
 int check_command(const CheckOptions& options);
+int graph_command(const GraphOptions& options);
 int blocks_command(const BlocksOptions& options);
 
 }  // namespace flyball

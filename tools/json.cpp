@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "studies/graph.h"
+
 namespace flyball {
 namespace {
 
@@ -101,6 +103,31 @@ Json block_json(const BlockType& type) {
 std::string check_json(const std::vector<ModelFile>& models) {
   Json json = {{"models", Json::array()}};
   for (const ModelFile& model : models) json["models"].push_back(model_json(model));
+  return text_of(json);
+}
+
+std::string graph_json(const Plan& plan) {
+  Json json = {{"blocks", Json::array()}, {"wires", Json::array()}, {"order", Json::array()}};
+  const auto& instances = plan.diagram->instances;
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const BlockType& type = *instances[i].object->type;
+    json["blocks"].push_back({{"name", instances[i].name},
+                              {"type", type.name},
+                              {"family", type.family},
+                              {"rate", rate_name(plan, static_cast<int>(i))}});
+  }
+  const auto end = [&](int i, int slot) {
+    return instances[i].name + '.' + instances[i].object->specification->slots[slot].name;
+  };
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    for (const auto& [slot, from] : instances[i].inputs) {
+      if (!from.connected()) continue;
+      json["wires"].push_back(
+          {{"from", end(from.instance, from.slot)}, {"to", end(static_cast<int>(i), slot)}});
+    }
+  }
+  for (const ExecutionStep& step : execution_order(plan))
+    json["order"].push_back({{"block", instances[step.instance].name}, {"computes", step.computes}});
   return text_of(json);
 }
 

@@ -11,6 +11,10 @@ namespace flyball {
 /// {"models": [{"file", "ok", "blocks", "states", "rates", "crossings", "diagnostics": […]}]}
 std::string check_json(const std::vector<ModelFile>& models);
 
+/// {"blocks": [{"name", "type", "family", "rate"}], "wires": [{"from", "to"}], "order": [{"block",
+/// "computes"}]}
+std::string graph_json(const Plan& plan);
+
 /// {"blocks": [{"name", "family", "summary", "structure", "parameters", "inputs", "outputs", …}]}
 std::string blocks_json(const std::vector<const BlockType*>& types);
 
