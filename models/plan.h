@@ -123,6 +123,7 @@ struct Plan {
   Program schedules;           // all alarms
   std::vector<int> externals;  // slots that `rates` reads and does not write, but for states and parameters
   std::vector<int> switches;   // relations and held values that blocks of these programs read as their own
+  std::vector<int> frozen;     // all of both, and what `zeros` and `logs` read or give and do not write
 
   Rational base_tick = Rational(1);
   std::vector<Rate> hit_rates;

@@ -29,6 +29,7 @@ class ProgramWriter {
     write_sweep();
     find_moving();
     const std::vector<bool> rates_cone = cone_of_rates(), zeros_cone = cone_of_zeros();
+    const std::vector<bool> logs_cone = cone_of_logs();
     plan_.rates_only = assemble(calls_with(SlotKind::state, Phase::rates));
     plan_.rates = assemble(cone_calls(rates_cone), calls_with(SlotKind::state, Phase::rates));
     std::vector<Call> zeros = located_calls();
@@ -38,9 +39,12 @@ class ProgramWriter {
     plan_.zeros_rest = assemble(cone_calls(rest), zeros);
     plan_.crossings = assemble(calls_with(SlotKind::crossing, Phase::crossings));
     plan_.schedules = assemble(calls_with(SlotKind::alarm, Phase::schedule));
-    plan_.logs = assemble(cone_calls(cone_of_logs()));
-    find_externals(rates_cone);
+    plan_.logs = assemble(cone_calls(logs_cone));
+    std::vector<bool> external(plan_.layout.size, false);
+    mark_externals(plan_.rates, written_in(rates_cone), external);
+    plan_.externals = slots_of(external);
     find_switches();
+    find_frozen(std::move(external), written_in(zeros_cone), written_in(logs_cone));
   }
 
  private:
@@ -226,28 +230,50 @@ class ProgramWriter {
     return cone;
   }
 
-  void find_externals(const std::vector<bool>& cone) {
-    const Layout& layout = plan_.layout;
-    std::vector<bool> is_external(layout.size, false), written(layout.size, false);
+  std::vector<bool> written_in(const std::vector<bool>& cone) const {
+    std::vector<bool> written(plan_.layout.size, false);
     for (int node = 0; node < order_.nodes(); ++node) {
       const Endpoint e = order_.endpoint(node);
       if (cone[node]) written[plan_.index_of(e.instance)[e.slot]] = true;
     }
-    for (const Op& op : plan_.rates.ops) {
+    return written;
+  }
+
+  /// Marks what a program reads and does not write, but for states, parameters and time.
+  void mark_externals(const Program& program, const std::vector<bool>& written,
+                      std::vector<bool>& marked) const {
+    const Layout& layout = plan_.layout;
+    for (const Op& op : program.ops) {
       const auto& reads = op.phase == Phase::rates ? op.object->rate_reads : op.object->reads;
       for (int k = 0; k < op.count; ++k) {
         const int* index = plan_.index.data() + op.first + k * op.stride;
         for (const auto& slots : reads) {
           for (const int s : slots) {
             const int at = op.object->specification->slots[s].numeric() ? index[s] : -1;
-            if (at >= layout.first_held && at < layout.first_crossing && !written[at]) is_external[at] = true;
+            if (at >= layout.first_held && at < layout.first_crossing && !written[at]) marked[at] = true;
           }
         }
       }
     }
-    for (int s = 0; s < layout.size; ++s) {
-      if (is_external[s]) plan_.externals.push_back(s);
+  }
+
+  std::vector<int> slots_of(const std::vector<bool>& marked) const {
+    std::vector<int> slots;
+    for (int s = 0; s < plan_.layout.size; ++s) {
+      if (marked[s]) slots.push_back(s);
     }
+    return slots;
+  }
+
+  void find_frozen(std::vector<bool> marked, const std::vector<bool>& written_by_zeros,
+                   const std::vector<bool>& written_by_logs) {
+    mark_externals(plan_.zeros, written_by_zeros, marked);
+    mark_externals(plan_.logs, written_by_logs, marked);
+    for (const LogColumn& column : plan_.columns) {
+      if (column.slot >= plan_.layout.first_held && !written_by_logs[column.slot]) marked[column.slot] = true;
+    }
+    for (const int slot : plan_.switches) marked[slot] = true;
+    plan_.frozen = slots_of(marked);
   }
 
   void find_switches() {
@@ -261,9 +287,7 @@ class ProgramWriter {
         }
       }
     }
-    for (int s = 0; s < plan_.layout.size; ++s) {
-      if (found[s]) plan_.switches.push_back(s);
-    }
+    plan_.switches = slots_of(found);
   }
 
   Plan& plan_;

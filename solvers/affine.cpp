@@ -1,6 +1,7 @@
 #include "solvers/affine.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace flyball {
@@ -12,15 +13,18 @@ constexpr int entries_per_call = 8;
 /// y = offset + slope t + matrix x; with the number of states known to the compiler, the loop over them is
 /// unrolled.
 template <int states>
-void product(const AffineProgram::Coefficients& map, double t, const double* x, double* y, int results,
+bool product(const AffineProgram::Coefficients& map, double t, const double* x, double* y, int results,
              int n) {
   if constexpr (states > 0) n = states;
   const double* row = map.matrix.data();
+  double zero = 0.0;
   for (int k = 0; k < results; ++k, row += n) {
     double sum = map.offset[k] + map.slope[k] * t;
     for (int j = 0; j < n; ++j) sum += row[j] * x[j];
     y[k] = sum;
+    zero += 0.0 * sum;  // of a finite number
   }
+  return zero == 0.0;
 }
 
 template <int... states>
@@ -37,7 +41,8 @@ AffineProgram::AffineProgram(const Plan& plan, const Program& program, std::vect
       slots_(std::move(results)),
       states_(plan.layout.states()),
       of_rates_(&program == &plan.rates),
-      product_(product_for(states_, std::make_integer_sequence<int, 9>())) {
+      product_(product_for(states_, std::make_integer_sequence<int, 9>())),
+      swept_(slots_.size()) {
   int calls = 1;
   for (const Op& op : program.ops) calls += op.count;
   applies_ = states_ > 0 && this->results() > 0 && this->results() * states_ <= entries_per_call * calls &&
@@ -56,24 +61,27 @@ bool AffineProgram::is_affine() const {
   });
 }
 
-void AffineProgram::evaluate(double t, const double* x, double* y, Workspace<double>& workspace,
-                             Coefficients& map) {
-  if (map.stale) return learn(t, x, y, workspace, map);
-  product_(map, t, x, y, results(), states_);
-}
-
-void AffineProgram::learn(double t, const double* x, double* y, Workspace<double>& workspace,
+bool AffineProgram::learn(double t, const double* x, double* y, Workspace<double>& workspace,
                           Coefficients& map) {
   workspace.values[0] = t;
   double* states = workspace.values.data() + plan_.layout.first_state;
   if (x != states) std::copy_n(x, states_, states);
   run(program_, plan_, frame(plan_, workspace, y));
-  const int m = results();
-  if (!of_rates_) {
-    for (int k = 0; k < m; ++k) y[k] = workspace.values[slots_[k]];
-  }
+  if (!of_rates_) std::ranges::transform(slots_, y, [&](int slot) { return workspace.values[slot]; });
+  adopt(t, x, y, workspace, map);
+  return std::all_of(y, y + results(), [](double value) { return std::isfinite(value); });
+}
+
+void AffineProgram::adopt(Workspace<double>& workspace, Coefficients& map) {
+  std::ranges::transform(slots_, swept_.begin(), [&](int slot) { return workspace.values[slot]; });
+  adopt(workspace.values[0], workspace.values.data() + plan_.layout.first_state, swept_.data(), workspace,
+        map);
+}
+
+void AffineProgram::adopt(double t, const double* x, const double* y, Workspace<double>& workspace,
+                          Coefficients& map) {
   if (switched(workspace, map)) differentiate(workspace, map);
-  for (int k = 0; k < m; ++k) {
+  for (int k = 0; k < results(); ++k) {
     double rest = y[k] - map.slope[k] * t;
     for (int j = 0; j < states_; ++j) rest -= map.matrix[k * states_ + j] * x[j];
     map.offset[k] = rest;

@@ -15,7 +15,8 @@ namespace flyball {
 class AffineProgram {
  public:
   using Coefficients = Workspace<double>::Affine;
-  using Product = void (*)(const Coefficients& map, double t, const double* x, double* y, int results, int n);
+  /// Whether all results are finite.
+  using Product = bool (*)(const Coefficients& map, double t, const double* x, double* y, int results, int n);
 
   /// `results` are slots of the value array; for the program of the rates they are empty.
   AffineProgram(const Plan& plan, const Program& program, std::vector<int> results);
@@ -25,12 +26,19 @@ class AffineProgram {
 
   /// Learns at the first call after `Coefficients::stale` was set: from the program on numbers, and where a
   /// bit or held value that scales something has changed, from the program on Jets. `x` are the states.
-  void evaluate(double t, const double* x, double* y, Workspace<double>& workspace, Coefficients& map);
+  /// False when a result is not finite.
+  bool evaluate(double t, const double* x, double* y, Workspace<double>& workspace, Coefficients& map) {
+    return map.stale ? learn(t, x, y, workspace, map) : product_(map, t, x, y, results(), states_);
+  }
+  /// Learns from results `y` that a sweep has just given at this time and state.
+  void adopt(double t, const double* x, const double* y, Workspace<double>& workspace, Coefficients& map);
+  /// The same where the results are slots of the value array.
+  void adopt(Workspace<double>& workspace, Coefficients& map);
 
  private:
   bool is_affine() const;
   int results() const { return of_rates_ ? states_ : static_cast<int>(slots_.size()); }
-  void learn(double t, const double* x, double* y, Workspace<double>& workspace, Coefficients& map);
+  bool learn(double t, const double* x, double* y, Workspace<double>& workspace, Coefficients& map);
   void differentiate(Workspace<double>& workspace, Coefficients& map);
   bool switched(const Workspace<double>& workspace, Coefficients& map) const;
 
@@ -43,6 +51,7 @@ class AffineProgram {
   bool applies_;
   std::vector<Workspace<Jet>> jets_;  // one, made when it is first needed
   std::vector<Jet> jet_rates_;
+  std::vector<double> swept_;
 };
 
 }  // namespace flyball

@@ -183,7 +183,10 @@ double DormandPrince<T>::error_norm() const {
 
 template <class T>
 void DormandPrince<T>::remember(double error, const Reach& taken, bool rejected, StepMemory& memory) const {
-  const double shrink = std::pow(error, exponent) / std::pow(memory.last_error, beta) / safety;
+  // What is below this grows by the greatest factor; a power is as long as a whole stage of a small system.
+  constexpr double negligible = 1e-9;
+  const double shrink =
+      error < negligible ? 0.0 : std::pow(error, exponent) / std::pow(memory.last_error, beta) / safety;
   double next = taken.size / std::clamp(shrink, 1.0 / greatest_factor, 1.0 / least_factor);
   if (rejected) next = std::min(next, taken.size);
   // The error of a shortened step belongs to a size that will not be tried again.
@@ -199,34 +202,21 @@ void DormandPrince<T>::fail(double next) const {
   throw step_vanished(value_of(begin_), next, worst_states(system_, weighted));
 }
 
-/// The quartic of dopri5.f as (1 - theta) x0 + theta (x1 + (1 - theta) (first + theta (last + (1 - theta)
-/// bubble))), exact at both ends. A step may be asked for many points, so the sums over stages are made once.
+/// A step may be asked for many points, so the sums over stages are made once.
 template <class T>
 void DormandPrince<T>::extend() {
-  const T* rates = row(0);
-  T* first = row(extension);
-  T* last = row(extension + 1);
-  T* bubble = row(extension + 2);
+  fill_hermite(taken_, row(0), row(last_rate), row(before), size_);
+  T* bubble = row(before + Extension<T>::bubble);
   for (int i = 0; i < size_; ++i) {
-    const T chord = row(after)[i] - row(before)[i];
-    first[i] = taken_ * rates[i] - chord;
-    last[i] = chord - taken_ * row(last_rate)[i] - first[i];
-    bubble[i] = taken_ * combine(d, rates + i, size_, std::make_index_sequence<stages>());
+    bubble[i] = taken_ * combine(d, row(0) + i, size_, std::make_index_sequence<stages>());
   }
   extended_ = true;
 }
 
 template <class T>
-void DormandPrince<T>::interpolate(T t, T* x) {
+std::optional<Extension<T>> DormandPrince<T>::extension() {
   if (!extended_) extend();
-  const T theta = (t - begin_) / taken_;
-  const T rest = 1.0 - theta;
-  const T *start = row(before), *end = row(after), *terms = row(extension);
-  const int n = size_;
-  for (int i = 0; i < n; ++i) {
-    const T inner = terms[n + i] + rest * terms[2 * n + i];
-    x[i] = rest * start[i] + theta * (end[i] + rest * (terms[i] + theta * inner));
-  }
+  return Extension<T>{begin_, taken_, row(before), size_};
 }
 
 template class DormandPrince<double>;

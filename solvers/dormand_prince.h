@@ -25,13 +25,14 @@ class DormandPrince final : public Stepper<T> {
   void restart(T t, const T* x, StepMemory& memory, bool changed) override;
   T step(T limit, StepMemory& memory) override;
   const T* state() const override { return row(after); }
-  void interpolate(T t, T* x) override;
+  void interpolate(T t, T* x) override { extension()->states(t, x); }
   bool ends_with_rates() const override { return true; }
-  bool extension_is_quartic() const override { return true; }
+  std::optional<Extension<T>> extension() override;
 
  private:
-  // Rows of the storage. The seven rates come first, so that the rate of stage j is row j.
-  static constexpr int stages = 7, last_rate = 6, before = 7, after = 8, trial = 9, extension = 10, rows = 13;
+  // Rows of the storage. The seven rates come first, so that the rate of stage j is row j; from `before` to
+  // `trial` stand the rows of the extension.
+  static constexpr int stages = 7, last_rate = 6, before = 7, after = 8, trial = 12, rows = 13;
 
   T* row(int r) { return storage_.data() + r * size_; }
   const T* row(int r) const { return storage_.data() + r * size_; }

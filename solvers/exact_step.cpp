@@ -34,6 +34,7 @@ void ExactStep::restart(double t, const double* x, StepMemory&, bool) {
   end_ = t;
   std::copy_n(x, size_, after_.begin());
   system_.rates(t, after_.data(), rate_after_.data());
+  rate_after_known_ = true;
   ++statistics_.rate_evaluations;
   ++statistics_.restarts;
 }
@@ -42,12 +43,15 @@ double ExactStep::step(double limit, StepMemory&) {
   begin_ = end_;
   std::swap(before_, after_);
   std::swap(rate_before_, rate_after_);
+  if (!rate_after_known_) {
+    system_.rates(begin_, before_.data(), rate_before_.data());
+    ++statistics_.rate_evaluations;
+  }
+  rate_after_known_ = false;
   const Reach next = reach(options_.max_step, limit - begin_, options_.max_step);
   end_ = next.lands ? limit : begin_ + next.size;
   std::copy(before_.begin(), before_.end(), after_.begin());
   if (size_ > 0) advance(propagator(end_ - begin_), after_.data());
-  system_.rates(end_, after_.data(), rate_after_.data());
-  ++statistics_.rate_evaluations;
   ++statistics_.steps;
   return end_;
 }

@@ -18,7 +18,7 @@ class ExactStep final : public Stepper<double> {
   double step(double limit, StepMemory& memory) override;
   const double* state() const override { return after_.data(); }
   void interpolate(double t, double* x) override;
-  bool ends_with_rates() const override { return true; }
+  bool ends_with_rates() const override { return false; }
 
  private:
   using Matrix = std::vector<double>;  // by rows
@@ -40,6 +40,7 @@ class ExactStep final : public Stepper<double> {
   StepperOptions options_;
   int size_;
   double begin_ = 0.0, end_ = 0.0;
+  bool rate_after_known_ = false;  // after an instant it is asked for anyway
   std::vector<double> before_, after_, rate_before_, rate_after_;
   std::vector<Propagator> known_;  // the last few lengths: ticks of several rates give several
   std::size_t oldest_ = 0;

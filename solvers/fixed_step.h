@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "solvers/hermite.h"
 #include "solvers/stepper.h"
 
 namespace flyball {
@@ -40,6 +39,7 @@ class FixedStep : public Stepper<T> {
   T step(T limit, StepMemory&) override {
     if (value_of(limit) < value_of(end_)) throw std::logic_error("a step to a limit in the past");
     begin_ = end_;
+    extended_ = false;
     std::copy(row(after), row(after) + size_, row(before));
     std::copy(row(rate_after), row(rate_after) + size_, row(rate_before));
     end_ = next_end(limit);
@@ -52,13 +52,21 @@ class FixedStep : public Stepper<T> {
 
   const T* state() const override { return row(after); }
   bool ends_with_rates() const override { return true; }
-  bool extension_is_quartic() const override { return true; }
+  void interpolate(T t, T* x) override { extension()->states(t, x); }
+  std::optional<Extension<T>> extension() override {
+    if (!extended_) extend();
+    extended_ = true;
+    return Extension<T>{begin_, taken_, row(before), size_};
+  }
 
  protected:
-  static constexpr int before = 0, after = 1, rate_before = 2, rate_after = 3, shared_rows = 4;
+  // The first five are those of the extension.
+  static constexpr int before = 0, after = 1, rate_before = 5, rate_after = 6, shared_rows = 7;
 
   /// Fills the row `after` from `before` and `rate_before`.
   virtual void advance() = 0;
+  /// Fills the inner rows of the extension: cubic Hermite interpolation (order 3).
+  virtual void extend() { fill_hermite(taken_, row(rate_before), row(rate_after), row(before), size_); }
 
   T* row(int r) { return storage_.data() + r * size_; }
   const T* row(int r) const { return storage_.data() + r * size_; }
@@ -86,6 +94,7 @@ class FixedStep : public Stepper<T> {
   double step_;
   long count_ = 0;
   T origin_, begin_, end_, taken_;
+  bool extended_ = false;
 };
 
 /// Euler's method: order 1, linear in between.
@@ -96,13 +105,8 @@ class Euler final : public FixedStep<T> {
  public:
   Euler(System<T>& system, const StepperOptions& options) : Base(system, options, 0) {}
 
-  void interpolate(T t, T* x) override {
-    const T theta = (t - this->begin()) / this->taken();
-    const T *from = this->row(Base::before), *to = this->row(Base::after);
-    for (int i = 0; i < this->size(); ++i) x[i] = (1.0 - theta) * from[i] + theta * to[i];
-  }
-
  private:
+  void extend() override {}
   void advance() override {
     const T *x = this->row(Base::before), *rate = this->row(Base::rate_before);
     T* y = this->row(Base::after);
@@ -110,23 +114,13 @@ class Euler final : public FixedStep<T> {
   }
 };
 
-/// The classical Runge-Kutta method: order 4, cubic Hermite in between (order 3).
+/// The classical Runge-Kutta method: order 4, cubic Hermite in between.
 template <class T>
 class RungeKutta4 final : public FixedStep<T> {
   using Base = FixedStep<T>;
 
  public:
   RungeKutta4(System<T>& system, const StepperOptions& options) : Base(system, options, 4) {}
-
-  void interpolate(T t, T* x) override {
-    const T h = this->taken();
-    const HermiteWeights<T> w((t - this->begin()) / h);
-    const T *x0 = this->row(Base::before), *x1 = this->row(Base::after);
-    const T *k0 = this->row(Base::rate_before), *k1 = this->row(Base::rate_after);
-    for (int i = 0; i < this->size(); ++i) {
-      x[i] = w.before * x0[i] + w.after * x1[i] + h * (w.rate_before * k0[i] + w.rate_after * k1[i]);
-    }
-  }
 
  private:
   static constexpr int trial = Base::shared_rows, rate_2 = trial + 1, rate_3 = trial + 2, rate_4 = trial + 3;

@@ -21,7 +21,9 @@ Instant::Instant(const Plan& plan, Workspace<double>& workspace, PlanSystem& sys
       system_(system),
       zeros_(zeros),
       is_staged_(plan.placed.size(), 0),
-      remembered_(plan.externals.size() + plan.layout.states()),
+      states_before_(plan.layout.states()),
+      externals_before_(plan.externals.size()),
+      frozen_before_(plan.frozen.size()),
       rates_(plan.layout.states()) {
   staged_first_.push_back(0);
   for (int i = 0; i < static_cast<int>(plan.placed.size()); ++i) {
@@ -39,7 +41,7 @@ Instant::Instant(const Plan& plan, Workspace<double>& workspace, PlanSystem& sys
 }
 
 bool Instant::run(const Due& due) {
-  remember_externals();
+  remember();
   if (due.located) zeros_.force();
   sweep(&due);
   collect_due(due);
@@ -54,13 +56,15 @@ bool Instant::run(const Due& due) {
     run_handlers();
     again = commit();
   }
-  if (zeros_.must_rearm()) {
-    flyball::run(plan_.rates_only, plan_, frame(plan_, workspace_, rates_.data()));
-    zeros_.rearm(system_.zero_rates(rates_.data()));
-  }
+  if (changed(plan_.frozen, frozen_before_))
+    workspace_.rates_map.stale = workspace_.zeros_map.stale = workspace_.logs_map.stale = true;
+  const bool rearm = zeros_.must_rearm();
+  if (rearm || system_.must_learn()) system_.rates_after_sweep(rates_.data());
+  zeros_.adopt_sweep();
+  if (rearm) zeros_.rearm(rates_.data(), system_);
   zeros_.release();
   ask_schedules();
-  return externals_changed();
+  return states_changed() || changed(plan_.externals, externals_before_);
 }
 
 void Instant::sweep(const Due* hits) {
@@ -196,17 +200,23 @@ double Instant::external(int slot) const {
   return relation >= 0 ? static_cast<double>(workspace_.bits[relation]) : workspace_.values[slot];
 }
 
-void Instant::remember_externals() {
+void Instant::remember() {
+  const auto keep = [&](const std::vector<int>& slots, std::vector<double>& values) {
+    std::ranges::transform(slots, values.begin(), [&](int slot) { return external(slot); });
+  };
   const auto states = workspace_.values.begin() + plan_.layout.first_state;
-  auto at = std::copy_n(states, plan_.layout.states(), remembered_.begin());
-  for (const int slot : plan_.externals) *at++ = external(slot);
+  std::copy_n(states, plan_.layout.states(), states_before_.begin());
+  keep(plan_.externals, externals_before_);
+  keep(plan_.frozen, frozen_before_);
 }
 
-bool Instant::externals_changed() const {
-  const auto states = workspace_.values.begin() + plan_.layout.first_state;
-  if (!std::equal(states, states + plan_.layout.states(), remembered_.begin())) return true;
-  auto at = remembered_.begin() + plan_.layout.states();
-  return std::ranges::any_of(plan_.externals, [&](int slot) { return *at++ != external(slot); });
+bool Instant::states_changed() const {
+  return !std::equal(states_before_.begin(), states_before_.end(),
+                     workspace_.values.begin() + plan_.layout.first_state);
+}
+
+bool Instant::changed(const std::vector<int>& slots, const std::vector<double>& remembered) const {
+  return !std::ranges::equal(slots, remembered, {}, [&](int slot) { return external(slot); });
 }
 
 void Instant::throw_endless() const {

@@ -48,8 +48,9 @@ class Instant {
   void run_again(const Handler& handler);
   void check_staged() const;
   bool commit();
-  void remember_externals();
-  bool externals_changed() const;
+  void remember();
+  bool states_changed() const;
+  bool changed(const std::vector<int>& slots, const std::vector<double>& remembered) const;
   double external(int slot) const;
   [[noreturn]] void throw_endless() const;
   const Instance& instance(int i) const { return plan_.instance(i); }
@@ -63,7 +64,7 @@ class Instant {
   std::vector<unsigned char> is_staged_;  // of each instance, in this round
   std::vector<int> touched_;              // instances staged in this round
   std::vector<double> saved_;
-  std::vector<double> remembered_;
+  std::vector<double> states_before_, externals_before_, frozen_before_;
   std::vector<double> rates_;
   long events_ = 0;
 };

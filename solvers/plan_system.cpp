@@ -25,12 +25,17 @@ void PlanSystem::place(double t, const double* x) {
 
 void PlanSystem::rates(double t, const double* x, double* dx) {
   if (affine_.applies()) {
-    affine_.evaluate(t, x, dx, workspace_, workspace_.rates_map);
-    if (all_finite(dx, size())) return;
+    if (affine_.evaluate(t, x, dx, workspace_, workspace_.rates_map)) return;
   }
   place(t, x);
   run(plan_.rates, plan_, frame(plan_, workspace_, dx));
   if (!all_finite(dx, size())) throw_first_bad({&plan_.rates}, plan_, workspace_);
+}
+
+void PlanSystem::rates_after_sweep(double* dx) {
+  run(plan_.rates_only, plan_, frame(plan_, workspace_, dx));
+  const double* x = workspace_.values.data() + plan_.layout.first_state;
+  if (must_learn()) affine_.adopt(workspace_.values[0], x, dx, workspace_, workspace_.rates_map);
 }
 
 const std::vector<double>* PlanSystem::linear_part() const {

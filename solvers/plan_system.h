@@ -21,6 +21,11 @@ class PlanSystem final : public System<double> {
 
   const std::vector<double>* linear_part() const override;
 
+  /// Whether the next call of `rates` will take more than a product.
+  bool must_learn() const { return affine_.applies() && workspace_.rates_map.stale; }
+  /// The rates at the end of an instant, whose last sweep stands in the workspace.
+  void rates_after_sweep(double* dx);
+
   /// Whether `rates` leaves the outputs behind it in the workspace, at its point.
   bool rates_give_outputs() const { return !affine_.applies(); }
 

@@ -79,4 +79,38 @@ double locate_root(double a, double b, int side, F&& z) {
   return bracket.far;
 }
 
+/// Where the parabola with these values and this slope leaves the positive side; NaN where it does not.
+inline double parabola_root(double a, double at_a, double slope_at_a, double b, double at_b) {
+  const double c1 = slope_at_a * (b - a), c2 = at_b - at_a - c1;
+  const double root = std::sqrt(c1 * c1 - 4.0 * at_a * c2);
+  return a + (b - a) * (c1 < 0.0 ? 2.0 * at_a / (root - c1) : (root + c1) / (-2.0 * c2));
+}
+
+/// The same for a z whose derivative is known: Newton's method, from the root of a parabola, leaves a bracket
+/// of a few roundings.
+template <class F, class D>
+double locate_root(double a, double b, int side, F&& z, D&& slope) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  constexpr int enough = 30;  // steps; where they do not suffice, the bracket is large and nothing is lost
+  const double tolerance = 4.0 * epsilon * std::max(std::fabs(a), std::fabs(b));
+  const double at_b = z(b), rounding = 4.0 * epsilon * std::fabs(at_b);
+  const auto inside = [&](double t, double near, double far) { return t > near && t < far; };
+  double near = a, far = b, blur = tolerance;
+  double t = parabola_root(a, side * z(a), side * slope(a), b, side * at_b);
+  if (!inside(t, near, far)) t = near + 0.5 * (far - near);
+  for (int k = 0; k < enough; ++k) {
+    const double value = z(t), steepness = slope(t);
+    (side * value < 0.0 ? far : near) = t;
+    // The root is no sharper than the rounding of z, whose terms are as large as z(b).
+    blur = std::max(tolerance, rounding / std::fabs(steepness));
+    const double change = value / steepness;
+    if (std::fabs(change) <= blur) break;
+    t = inside(t - change, near, far) ? t - change : near + 0.5 * (far - near);
+  }
+  const double before = t - blur, after = t + blur;
+  if (inside(after, near, far) && side * z(after) < 0.0) far = after;
+  if (inside(before, near, far) && side * z(before) > 0.0) near = before;
+  return locate_root(near, far, side, z);
+}
+
 }  // namespace flyball

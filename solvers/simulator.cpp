@@ -110,7 +110,8 @@ bool Simulator::advance() {
   bool located = false;
   double end = step_end_ = stepper_->step(limit, workspace_.step);
   if (!zeros_.none()) end = locate(time_, end, limit, located);
-  if (!outputs_are_finite(*plan_, workspace_))
+  const bool evaluated = system_.rates_give_outputs() || !zeros_.none();
+  if (evaluated && !outputs_are_finite(*plan_, workspace_))
     throw_first_bad({&plan_->rates, &plan_->zeros}, *plan_, workspace_);
   const bool is_instant = located || end >= due;
   log_asked(end, !is_instant);
@@ -153,7 +154,8 @@ void Simulator::instant(double t, double tick, bool located) {
   find_due(t, tick, located);
   if (located) watch_progress(t);
   const bool changed = instant_.run(due_);
-  workspace_.rates_map.stale = workspace_.zeros_map.stale = workspace_.logs_map.stale = true;
+  if (logs && affine_log_.applies() && workspace_.logs_map.stale)
+    affine_log_.adopt(workspace_, workspace_.logs_map);
   time_ = t;
   check_alarms(t);
   if (logs) log_instant(was_asked);
@@ -227,15 +229,13 @@ void Simulator::log_at(double t) {
 bool Simulator::log_as_polynomial(double last) {
   constexpr std::int64_t worth_it = 8;
   std::int64_t& k = workspace_.log_position;
-  if (log_time(k + worth_it) > last || !affine_log_.applies() || !stepper_->extension_is_quartic())
-    return false;
-  double* x = workspace_.values.data() + plan_->layout.first_state;
-  polynomial_.fit(time_, step_end_, [&](double t, double* row) {
-    stepper_->interpolate(t, x);
-    affine_log_.evaluate(t, x, row, workspace_, workspace_.logs_map);
-  });
+  if (log_time(k + worth_it) > last || !affine_log_.applies()) return false;
+  const auto extension = stepper_->extension();
+  if (!extension) return false;
+  if (workspace_.logs_map.stale) log_at(log_time(k++));
+  polynomial_.fit(workspace_.logs_map, *extension);
   for (double t = log_time(k); t <= last; t = log_time(++k)) {
-    polynomial_.evaluate(t, row_after_.data());
+    for (int c = 0; c < polynomial_.signals(); ++c) row_after_[c] = polynomial_.value(c, t);
     if (!log_.append(t, row_after_.data())) log_at(t);
   }
   return true;

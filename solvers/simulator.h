@@ -6,7 +6,7 @@
 
 #include "solvers/instant.h"
 #include "solvers/log.h"
-#include "solvers/log_polynomial.h"
+#include "solvers/step_polynomial.h"
 #include "solvers/stepper.h"
 
 namespace flyball {
@@ -89,7 +89,7 @@ class Simulator {
   std::unique_ptr<Stepper<double>> stepper_;
   Log log_;
   AffineProgram affine_log_;
-  LogPolynomial polynomial_;
+  StepPolynomial polynomial_;
   Due due_;
   std::vector<double> row_before_, row_after_;
   double time_;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "blocks/scalar.h"
 #include "models/sparsity.h"
+#include "solvers/extension.h"
 
 namespace flyball {
 
@@ -76,8 +78,9 @@ class Stepper {
   /// Whether the last call of System::rates in `step` was at the end point: its outputs can then be used.
   virtual bool ends_with_rates() const = 0;
 
-  /// Whether `interpolate` is a polynomial of at most fourth degree in time.
-  virtual bool extension_is_quartic() const { return false; }
+  /// What `interpolate` evaluates, until the next step, where it is a polynomial of at most fourth degree in
+  /// time; else nothing.
+  virtual std::optional<Extension<T>> extension() { return std::nullopt; }
 
   const StepperStatistics& statistics() const { return statistics_; }
 

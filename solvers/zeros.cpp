@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "solvers/plan_system.h"
 #include "solvers/root.h"
 
 namespace flyball {
@@ -15,7 +17,8 @@ Zeros::Zeros(const Plan& plan, Workspace<double>& workspace)
       first_crossing_(static_cast<int>(plan.located_relations.size())),
       watched_(watch(plan)),
       affine_(plan, plan.zeros, slots_of(watched_)),
-      affine_values_(watched_.size()) {
+      affine_values_(watched_.size()),
+      polynomial_(static_cast<int>(watched_.size())) {
   changed_.reserve(watched_.size());
   fired_.reserve(watched_.size());
   forced_now_.reserve(watched_.size());
@@ -83,24 +86,45 @@ void Zeros::evaluate(bool after_rates) {
 void Zeros::evaluate_at(double t, Stepper<double>& stepper) {
   if (t == evaluated_) return;
   evaluated_ = t;
+  if (polynomial_fits_) {
+    for (int k = 0; k < polynomial_.signals(); ++k)
+      workspace_.values[watched_[k].slot] = polynomial_.value(k, t);
+    return;
+  }
   workspace_.values[0] = t;
   stepper.interpolate(t, workspace_.values.data() + plan_.layout.first_state);
   evaluate(false);
 }
 
+/// Where one of the watched changes side between two times of the step.
+double Zeros::find(int watched, double t0, double t1, Stepper<double>& stepper) {
+  const Watched& w = watched_[watched];
+  double& scale = scale_[watched];
+  const auto seen = [&](double z) {
+    scale = std::max(scale, std::fabs(z));
+    return z;
+  };
+  if (polynomial_fits_) {
+    return locate_root(
+        t0, t1, side(w), [&](double t) { return seen(polynomial_.value(watched, t)); },
+        [&](double t) { return polynomial_.slope(watched, t); });
+  }
+  return locate_root(t0, t1, side(w), [&](double t) {
+    evaluate_at(t, stepper);
+    return seen(value(w.slot));
+  });
+}
+
 double Zeros::locate(double t0, double t1, Stepper<double>& stepper) {
   for (const int k : changed_) scale_[k] = std::fabs(value(watched_[k].slot));
   evaluated_ = std::numeric_limits<double>::quiet_NaN();
+  const auto extension = affine_.applies() ? stepper.extension() : std::nullopt;
+  polynomial_fits_ = extension.has_value();
+  if (polynomial_fits_) polynomial_.fit(workspace_.zeros_map, *extension);
   double end = t1;
   for (std::size_t next = 0; next < changed_.size();) {
     const int k = changed_[next];
-    const Watched& w = watched_[k];
-    const double found = locate_root(t0, end, side(w), [&](double t) {
-      evaluate_at(t, stepper);
-      const double z = value(w.slot);
-      scale_[k] = std::max(scale_[k], std::fabs(z));
-      return z;
-    });
+    const double found = find(k, t0, end, stepper);
     // By the rounding of the step, not of `end`: that may lie arbitrarily close to a step's beginning at 0.
     if (end - found <= same_instant(t1)) {  // simultaneous with what was found there
       ++next;
@@ -166,16 +190,25 @@ bool Zeros::must_rearm() const {
   return std::ranges::any_of(forced_now_, [&](int k) { return !watched_[k].relation; });
 }
 
-void Zeros::rearm(const std::vector<double>& slopes) {
+void Zeros::rearm(const double* dx, PlanSystem& system) {
+  const bool affine = affine_.applies();
+  const std::vector<double>* slopes = affine ? nullptr : &system.zero_rates(dx);
   for (const int k : forced_now_) {
     const Watched& w = watched_[k];
     if (w.relation) continue;
-    const double slope = slopes[w.slot - plan_.layout.first_relation];
+    const double slope = affine ? this->slope(k, dx) : (*slopes)[w.slot - plan_.layout.first_relation];
     // A root is located to a few ulp of time; 1e-10 of the value's size in the step covers its evaluation.
     const double t = workspace_.values[0];
     const double level = 1e-10 * scale_[k] + 16.0 * std::fabs(slope) * (std::nextafter(t, INFINITY) - t);
     if (std::fabs(value(w.slot)) <= level && slope != 0.0) workspace_.sides[w.number] = slope > 0.0 ? 1 : -1;
   }
+}
+
+/// The rate of change of an affine one along the rates `dx`.
+double Zeros::slope(int watched, const double* dx) const {
+  const int n = plan_.layout.states();
+  const double* row = workspace_.zeros_map.matrix.data() + static_cast<std::ptrdiff_t>(watched) * n;
+  return std::inner_product(row, row + n, dx, workspace_.zeros_map.slope[watched]);
 }
 
 void Zeros::release() {

@@ -5,9 +5,12 @@
 #include <vector>
 
 #include "solvers/affine.h"
+#include "solvers/step_polynomial.h"
 #include "solvers/workspace.h"
 
 namespace flyball {
+
+class PlanSystem;
 
 /// Times this close are one instant: rounding of an alarm's own arithmetic, and of a located root.
 inline double same_instant(double t) { return 16.0 * std::numeric_limits<double>::epsilon() * std::fabs(t); }
@@ -24,7 +27,7 @@ class Zeros {
   const std::vector<int>& changed(bool after_rates);
 
   /// The first time in (t0, t1] at which something has changed side, given that `changed` at t1 was not
-  /// empty. Leaves the workspace and `changed` at that time.
+  /// empty. Leaves relations, crossings and `changed` at that time.
   double locate(double t0, double t1, Stepper<double>& stepper);
 
   /// Takes the end of the step for the time of what was located just before it.
@@ -43,9 +46,13 @@ class Zeros {
   const std::vector<int>& fired_crossings();
   /// Whether a crossing was forced in this instant.
   bool must_rearm() const;
-  /// What was forced and is still at rounding level takes its side from the sign of its rate of change
-  /// (PlanSystem::zero_rates).
-  void rearm(const std::vector<double>& slopes);
+  /// What was forced and is still at rounding level takes its side from the sign of its rate of change along
+  /// the rates `dx`.
+  void rearm(const double* dx, PlanSystem& system);
+  /// Takes what is affine from the last sweep of an instant.
+  void adopt_sweep() {
+    if (affine_.applies() && workspace_.zeros_map.stale) affine_.adopt(workspace_, workspace_.zeros_map);
+  }
   /// Ends an instant: nothing is forced any more.
   void release();
 
@@ -74,6 +81,8 @@ class Zeros {
   void collect();
   void evaluate(bool after_rates);
   void evaluate_at(double t, Stepper<double>& stepper);
+  double find(int watched, double t0, double t1, Stepper<double>& stepper);
+  double slope(int watched, const double* dx) const;
 
   const Plan& plan_;
   Workspace<double>& workspace_;
@@ -81,6 +90,8 @@ class Zeros {
   std::vector<Watched> watched_;
   AffineProgram affine_;
   std::vector<double> affine_values_;
+  StepPolynomial polynomial_;
+  bool polynomial_fits_ = false;  // the step in which `locate` looks
   double evaluated_ =
       std::numeric_limits<double>::quiet_NaN();  // time inside the step that the workspace shows
   std::vector<int> changed_;

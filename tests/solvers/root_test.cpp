@@ -91,3 +91,59 @@ TEST_CASE("The first of the changes that halving separates is found") {
   const double found = locate_root(0.0, 0.25, 1, z);
   CHECK(found == Approx(0.1).epsilon(1e-14));
 }
+
+namespace {
+
+/// A quartic on [0, 1] that is positive before `root`, and its derivative.
+struct SmoothCase {
+  std::string name;
+  double c[5];
+  double root;
+  int most_evaluations;
+
+  double z(double u) const { return c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * c[4]))); }
+  double slope(double u) const { return c[1] + u * (2.0 * c[2] + u * (3.0 * c[3] + u * 4.0 * c[4])); }
+};
+
+// A parabola takes its formula and a confirmation, another smooth curve three or four steps more; a triple
+// root leaves Newton a third of the way each time, and the rest to bisection.
+const SmoothCase smooth_cases[] = {
+    {"line", {0.37, -1.0, 0.0, 0.0, 0.0}, 0.37, 12},
+    {"flight from the ground", {0.0, 1.0, -4.0, 0.0, 0.0}, 0.25, 12},
+    {"flight from below the ground", {-1e-17, 1.0, -4.0, 0.0, 0.0}, 0.25, 12},
+    {"cubic", {0.512, 0.0, 0.0, -1.0, 0.0}, 0.8, 22},
+    {"quartic", {0.0625, 0.0, 0.0, 0.0, -1.0}, 0.5, 22},
+    {"falls at once", {0.0, -1.0, 0.0, 0.0, 0.0}, 0.0, 160},
+    {"triple root", {0.064, -0.48, 1.2, -1.0, 0.0}, 0.4, 160},
+};
+
+}  // namespace
+
+TEST_CASE("With a derivative, roots of smooth curves are located as sharply") {
+  for (const SmoothCase& c : smooth_cases) {
+    for (const double start : {0.0, 10.0}) {
+      for (const int side : {1, -1}) {
+        INFO(c.name << " from " << start << ", side " << side);
+        int evaluations = 0;
+        const auto z = [&](double t) {
+          ++evaluations;
+          return side * c.z(t - start);
+        };
+        const double found =
+            locate_root(start, start + 1.0, side, z, [&](double t) { return side * c.slope(t - start); });
+        CHECK(side * z(found) < 0.0);
+        // The bracket closes to 4 eps where z is clean; its terms, of size 4, leave the sum a rounding of
+        // 1e-15, which a slope of at least 0.5 turns into 2e-15, and a triple root into its cube root.
+        const double blurred = c.name == "triple root" ? std::cbrt(1e-15) : 2e-15;
+        CHECK(std::fabs(found - (start + c.root)) <= 8.0 * 2.2e-16 * (start + 1.0) + blurred);
+        CHECK(evaluations <= c.most_evaluations + 1);  // and the one of this test
+      }
+    }
+  }
+}
+
+TEST_CASE("With a derivative, a change that rounding takes back is at the end") {
+  const double found = locate_root(
+      0.0, 1.0, 1, [](double t) { return 1.0 - t; }, [](double) { return -1.0; });
+  CHECK(found == 1.0);
+}
