@@ -62,7 +62,7 @@ class DiagramReader {
     }
     read_diagram_section();
     if (const TomlValue* simulation = section("simulation")) {
-      diagram_.simulation = read_simulation(*simulation, parameters_, report_);
+      diagram_.simulation = read_simulation(*simulation, state_names(), parameters_, report_);
     }
     diagram_.parameters = parameters_.parameters();
     diagram_.instances = std::move(blocks_.instances());
@@ -99,6 +99,17 @@ class DiagramReader {
     if (wires != nullptr) connections.read(*wires);
     connections.check_missing();
     diagram_.logged = read_log(diagram == nullptr ? nullptr : diagram->find("log"), blocks_, report_);
+  }
+
+  std::vector<std::string> state_names() {
+    std::vector<std::string> names;
+    for (const Instance& instance : blocks_.instances()) {
+      if (instance.object == nullptr) continue;
+      for (const SlotSpec& slot : instance.object->specification->slots) {
+        if (slot.kind == SlotKind::state) names.push_back(instance.name + "." + slot.name);
+      }
+    }
+    return names;
   }
 
   const TomlValue& root_;

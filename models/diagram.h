@@ -61,7 +61,7 @@ struct Logged {
 /// [simulation], with its defaults.
 struct SimulationSettings {
   double stop = 10.0;
-  std::string method = "auto";  // dp5, rk4, euler, exact, adams, bdf; auto is dp5 for now
+  std::string method = "auto";  // dp5, rk4, heun, euler, exact, discrete, adams, bdf; auto chooses
   double rtol = 1e-6;
   double atol = 1e-8;
   std::optional<double> max_step;        // default: a fiftieth of the run

@@ -8,13 +8,15 @@ namespace flyball {
 namespace {
 
 const std::vector<std::string>& methods() {
-  static const std::vector<std::string> names{"auto", "dp5", "rk4", "euler", "exact", "adams", "bdf"};
+  static const std::vector<std::string> names{"auto",  "dp5",      "rk4",   "heun", "euler",
+                                              "exact", "discrete", "adams", "bdf"};
   return names;
 }
 
 class SimulationReader {
  public:
-  SimulationReader(ModelParameters& parameters, Report& report) : parameters_(parameters), report_(report) {}
+  SimulationReader(const std::vector<std::string>& states, ModelParameters& parameters, Report& report)
+      : states_(states), parameters_(parameters), report_(report) {}
 
   SimulationSettings read(const TomlValue& section) {
     report_.check_keys(section, "[simulation]", {"stop", "solver", "log_interval"});
@@ -40,8 +42,11 @@ class SimulationReader {
   void read_method(const TomlValue& method) {
     if (!report_.expect(method, TomlValue::Kind::string, "the name of a method in quotes")) return;
     settings_.method = method.text;
-    if (std::ranges::find(methods(), method.text) != methods().end()) return;
-    report_.error_inside(method, 0, message::unknown_method(method.text, methods()));
+    if (std::ranges::find(methods(), method.text) == methods().end()) {
+      report_.error_inside(method, 0, message::unknown_method(method.text, methods()));
+    } else if (method.text == "discrete" && !states_.empty()) {
+      report_.error_inside(method, 0, message::discrete_with_states(states_));
+    }
   }
 
   std::optional<double> above_zero(const TomlValue& table, std::string_view key, const std::string& unit) {
@@ -52,6 +57,7 @@ class SimulationReader {
     return std::nullopt;
   }
 
+  const std::vector<std::string>& states_;
   ModelParameters& parameters_;
   Report& report_;
   SimulationSettings settings_;
@@ -59,8 +65,9 @@ class SimulationReader {
 
 }  // namespace
 
-SimulationSettings read_simulation(const TomlValue& section, ModelParameters& parameters, Report& report) {
-  return SimulationReader(parameters, report).read(section);
+SimulationSettings read_simulation(const TomlValue& section, const std::vector<std::string>& states,
+                                   ModelParameters& parameters, Report& report) {
+  return SimulationReader(states, parameters, report).read(section);
 }
 
 }  // namespace flyball

@@ -6,7 +6,8 @@
 
 namespace flyball {
 
-/// [simulation]. What is not given keeps its default.
-SimulationSettings read_simulation(const TomlValue& section, ModelParameters& parameters, Report& report);
+/// [simulation] of a diagram with these continuous states ("plant.x"). What is not given keeps its default.
+SimulationSettings read_simulation(const TomlValue& section, const std::vector<std::string>& states,
+                                   ModelParameters& parameters, Report& report);
 
 }  // namespace flyball

@@ -61,6 +61,15 @@ bool AffineProgram::is_affine() const {
   });
 }
 
+bool AffineProgram::is_autonomous() const {
+  const auto reads_time = [](const Op& op) {
+    const auto& reads = op.phase == Phase::rates ? op.object->rate_reads : op.object->reads;
+    const auto is_time = [&](int s) { return op.object->specification->slots[s].kind == SlotKind::time; };
+    return std::ranges::any_of(reads, [&](const auto& slots) { return std::ranges::any_of(slots, is_time); });
+  };
+  return std::ranges::none_of(program_.ops, reads_time);
+}
+
 bool AffineProgram::learn(double t, const double* x, double* y, Workspace<double>& workspace,
                           Coefficients& map) {
   workspace.values[0] = t;

@@ -23,6 +23,8 @@ class AffineProgram {
 
   /// Whether the results are affine in states and time, and few enough for a matrix to be the faster way.
   bool applies() const { return applies_; }
+  /// Whether they do not depend on time either, whatever bits and held values are.
+  bool is_autonomous() const;
 
   /// Learns at the first call after `Coefficients::stale` was set: from the program on numbers, and where a
   /// bit or held value that scales something has changed, from the program on Jets. `x` are the states.

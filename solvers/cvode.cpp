@@ -28,6 +28,7 @@ class CvodeStepper final : public Stepper<double> {
   const double* state() const override { return N_VGetArrayPointer(state_.get()); }
   void interpolate(double t, double* x) override;
   bool ends_with_rates() const override { return false; }
+  int limiting_state() const override;
 
  private:
   void use_fixed_point();
@@ -49,7 +50,8 @@ class CvodeStepper final : public Stepper<double> {
   void count_steps();
   void remember(double limit, StepMemory& memory) const;
   [[noreturn]] void fail(int flag);
-  std::vector<WeightedError> worst() const;
+  std::vector<double> weighted_errors() const;
+  std::vector<WeightedError> worst() const { return worst_states(system_, weighted_errors()); }
 
   System<double>& system_;
   StepperOptions options_;
@@ -279,13 +281,15 @@ void CvodeStepper::fail(int flag) {
   throw SimulationError(SimulationError::Kind::solver, time, what + ": " + message_);
 }
 
-std::vector<WeightedError> CvodeStepper::worst() const {
+int CvodeStepper::limiting_state() const { return size_ > 0 ? worst_places(weighted_errors()).front() : -1; }
+
+std::vector<double> CvodeStepper::weighted_errors() const {
   CVodeGetEstLocalErrors(cvode_.get(), scratch_.get());
   std::vector<double> weighted(N_VGetArrayPointer(scratch_.get()),
                                N_VGetArrayPointer(scratch_.get()) + size_);
   CVodeGetErrWeights(cvode_.get(), scratch_.get());
   for (int i = 0; i < size_; ++i) weighted[i] *= N_VGetArrayPointer(scratch_.get())[i];
-  return worst_states(system_, weighted);
+  return weighted;
 }
 
 void CvodeStepper::interpolate(double t, double* x) {

@@ -163,12 +163,17 @@ void DormandPrince<T>::stage(const double (&a)[N], T t, int target) {
 }
 
 template <class T>
+double DormandPrince<T>::tolerance_of(int i) const {
+  const double scale = std::max(std::fabs(value_of(row(before)[i])), std::fabs(value_of(row(after)[i])));
+  return options_.atol + options_.rtol * scale;
+}
+
+template <class T>
 double DormandPrince<T>::error_of(int i) const {
   const T* rates = row(0) + i;
   double sum = 0.0;
   for (int j = 0; j < stages; ++j) sum += e[j] * value_of(rates[j * size_]);
-  const double scale = std::max(std::fabs(value_of(row(before)[i])), std::fabs(value_of(row(after)[i])));
-  return value_of(taken_) * sum / (options_.atol + options_.rtol * scale);
+  return value_of(taken_) * sum / tolerance_of(i);
 }
 
 template <class T>
@@ -179,6 +184,29 @@ double DormandPrince<T>::error_norm() const {
     sum += weighted * weighted;
   }
   return std::sqrt(sum / size_);
+}
+
+template <class T>
+int DormandPrince<T>::limiting_state() const {
+  int worst = -1;
+  for (int i = 0; i < size_; ++i) {
+    if (worst < 0 || std::fabs(error_of(i)) > std::fabs(error_of(worst))) worst = i;
+  }
+  return worst;
+}
+
+template <class T>
+double DormandPrince<T>::step_times_stiffness() const {
+  // The last two stages are at the same time, so that their rates differ by the Jacobian alone.
+  const T *sixth = row(trial), *sixth_rate = row(last_rate - 1);
+  double states = 0.0, rates = 0.0;
+  for (int i = 0; i < size_; ++i) {
+    const double state = value_of(row(after)[i] - sixth[i]) / tolerance_of(i);
+    const double rate = value_of(row(last_rate)[i] - sixth_rate[i]) / tolerance_of(i);
+    states += state * state;
+    rates += rate * rate;
+  }
+  return states > 0.0 ? value_of(taken_) * std::sqrt(rates / states) : 0.0;
 }
 
 template <class T>

@@ -28,6 +28,12 @@ class DormandPrince final : public Stepper<T> {
   void interpolate(T t, T* x) override { extension()->states(t, x); }
   bool ends_with_rates() const override { return true; }
   std::optional<Extension<T>> extension() override;
+  int limiting_state() const override;
+
+  /// h |lambda| of the last step, where lambda is the largest eigenvalue that the difference of its last two
+  /// stages shows, measured as errors are; 0 when these are equal. On the negative real axis the method is
+  /// stable up to 3.3. Source: Hairer, Wanner, Solving Ordinary Differential Equations II, section IV.2.
+  double step_times_stiffness() const;
 
  private:
   // Rows of the storage. The seven rates come first, so that the rate of stage j is row j; from `before` to
@@ -44,6 +50,7 @@ class DormandPrince final : public Stepper<T> {
   void extend();
   template <std::size_t N>
   void stage(const double (&a)[N], T t, int target);
+  double tolerance_of(int i) const;
   double error_of(int i) const;
   double error_norm() const;
   void remember(double error, const Reach& taken, bool rejected, StepMemory& memory) const;

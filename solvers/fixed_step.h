@@ -114,6 +114,27 @@ class Euler final : public FixedStep<T> {
   }
 };
 
+/// Heun's method, the explicit trapezoidal rule: order 2, cubic Hermite in between.
+template <class T>
+class Heun final : public FixedStep<T> {
+  using Base = FixedStep<T>;
+
+ public:
+  Heun(System<T>& system, const StepperOptions& options) : Base(system, options, 2) {}
+
+ private:
+  static constexpr int euler = Base::shared_rows, euler_rate = euler + 1;
+
+  void advance() override {
+    const T h = this->taken();
+    const T *x = this->row(Base::before), *k1 = this->row(Base::rate_before);
+    T *along = this->row(euler), *k2 = this->row(euler_rate), *y = this->row(Base::after);
+    for (int i = 0; i < this->size(); ++i) along[i] = x[i] + h * k1[i];
+    this->evaluate(this->begin() + h, along, k2);
+    for (int i = 0; i < this->size(); ++i) y[i] = x[i] + 0.5 * h * (k1[i] + k2[i]);
+  }
+};
+
 /// The classical Runge-Kutta method: order 4, cubic Hermite in between.
 template <class T>
 class RungeKutta4 final : public FixedStep<T> {

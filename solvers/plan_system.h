@@ -20,6 +20,8 @@ class PlanSystem final : public System<double> {
   void jacobian(double t, const double* x, double* values) override;
 
   const std::vector<double>* linear_part() const override;
+  /// Whether linear_part() will be there after each instant.
+  bool is_linear() const { return affine_.applies() && affine_.is_autonomous(); }
 
   /// Whether the next call of `rates` will take more than a product.
   bool must_learn() const { return affine_.applies() && workspace_.rates_map.stale; }

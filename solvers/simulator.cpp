@@ -15,8 +15,6 @@ namespace {
 /// So many located events in a row, each within rounding of the one before, are no motion any more.
 constexpr int most_close_events = 50;
 
-std::string chosen_method(const std::string& method) { return method == "auto" ? "dp5" : method; }
-
 StepperOptions stepper_options(const SimulationSettings& settings) {
   StepperOptions options;
   options.rtol = settings.rtol;
@@ -55,10 +53,10 @@ Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings&
       settings_(settings),
       log_options_(log),
       stage_(stage),
-      method_(chosen_method(settings.method)),
       options_(stepper_options(settings)),
       workspace_(std::move(workspace)),
       system_(*plan_, workspace_),
+      method_(first_method(*plan_, system_, settings)),
       zeros_(*plan_, workspace_),
       instant_(*plan_, workspace_, system_, zeros_),
       stepper_(make_stepper(method_, system_, options_)),

@@ -6,6 +6,7 @@
 
 #include "solvers/instant.h"
 #include "solvers/log.h"
+#include "solvers/method.h"
 #include "solvers/step_polynomial.h"
 #include "solvers/stepper.h"
 
@@ -47,8 +48,8 @@ class Simulator {
   const Plan& plan() const { return *plan_; }
   const Log& log() const { return log_; }
   RunStatistics statistics() const;
-  /// The method that `auto` stood for, and the longest step that was allowed.
-  const std::string& method() const { return method_; }
+  /// The method that runs now, and the longest step that is allowed.
+  MethodReport method() const { return report_method(method_, *plan_, settings_, workspace_.step); }
   double max_step() const { return options_.max_step; }
 
   /// Sets a parameter before the run begins: "K" or "block.parameter", SI. Throws std::invalid_argument when
@@ -79,11 +80,11 @@ class Simulator {
   SimulationSettings settings_;
   LogOptions log_options_;
   Stage stage_;
-  std::string method_;
   StepperOptions options_;
   double log_step_ = 0.0, log_divisor_ = 1.0;  // asked time k is k * step / divisor, rounded once
   Workspace<double> workspace_;
   PlanSystem system_;
+  std::string method_;  // of make_stepper
   Zeros zeros_;
   Instant instant_;
   std::unique_ptr<Stepper<double>> stepper_;

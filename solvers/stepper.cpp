@@ -2,7 +2,9 @@
 
 #include <stdexcept>
 
+#include "solvers/auto_step.h"
 #include "solvers/cvode.h"
+#include "solvers/discrete_step.h"
 #include "solvers/dormand_prince.h"
 #include "solvers/exact_step.h"
 #include "solvers/fixed_step.h"
@@ -23,10 +25,13 @@ struct Method {
 };
 
 constexpr Method methods[] = {
+    {"auto", make<AutoStep>},
     {"dp5", make<DormandPrince<double>>},
     {"rk4", make<RungeKutta4<double>>},
+    {"heun", make<Heun<double>>},
     {"euler", make<Euler<double>>},
     {"exact", make<ExactStep>},
+    {"discrete", make<DiscreteStep>},
     {"adams", make_adams},
     {"bdf", make_bdf},
 };

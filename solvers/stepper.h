@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,6 +45,12 @@ struct StepperOptions {
 struct StepMemory {
   double size = 0.0;         // the step to try next; 0: the method chooses
   double last_error = 1e-4;  // weighted error of the last accepted step (PI controller)
+
+  // What `auto` knows of stiffness.
+  int untested_steps = 0;
+  int stiff_steps = 0, calm_steps = 0;                           // since the count began anew
+  double stiff_since = std::numeric_limits<double>::infinity();  // s; BDF from then on
+  int stiffest_state = -1;
 };
 
 struct StepperStatistics {
@@ -82,14 +89,17 @@ class Stepper {
   /// time; else nothing.
   virtual std::optional<Extension<T>> extension() { return std::nullopt; }
 
-  const StepperStatistics& statistics() const { return statistics_; }
+  /// The state with the largest weighted error in the last step; -1 when the method estimates none.
+  virtual int limiting_state() const { return -1; }
+
+  virtual StepperStatistics statistics() const { return statistics_; }
 
  protected:
   StepperStatistics statistics_;
 };
 
-/// A stepper by the name of its method: dp5, rk4, euler (any scalar), exact (of affine systems), adams, bdf
-/// (CVODE, double).
+/// A stepper by the name of its method: auto (dp5, and bdf once the system is stiff), dp5, rk4, heun, euler,
+/// exact (of affine systems), discrete (without states), adams, bdf (CVODE).
 std::unique_ptr<Stepper<double>> make_stepper(const std::string& method, System<double>& system,
                                               const StepperOptions& options);
 /// The methods of `make_stepper`, in the order of the documentation.

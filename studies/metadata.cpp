@@ -23,8 +23,9 @@ Json model_of(const RunResult& result, const RunInputs& inputs) {
 
 Json solver_of(const RunResult& result) {
   const StepperStatistics& steps = result.statistics.stepper;
-  return {{"method", result.method},
+  return {{"method", result.method.method},
           {"asked", result.settings.method},
+          {"reason", result.method.reason},
           {"rtol", result.settings.rtol},
           {"atol", result.settings.atol},
           {"max_step", result.max_step},

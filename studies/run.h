@@ -20,10 +20,10 @@ struct RunResult {
   SimulationSettings settings;
   Log log;
   RunStatistics statistics = {};
-  std::string method = {};  // that `auto` stood for
-  double max_step = 0.0;    // s
-  double end = 0.0;         // simulated time that was reached, s
-  double wall_time = 0.0;   // s
+  MethodReport method = {};
+  double max_step = 0.0;   // s
+  double end = 0.0;        // simulated time that was reached, s
+  double wall_time = 0.0;  // s
   RunStatus status = RunStatus::finished;
   std::string reason = {};  // of a stop
 };

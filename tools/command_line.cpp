@@ -54,10 +54,8 @@ void add_positive(CLI::App* command, const std::string& option, std::optional<do
 
 void add_solver_options(CLI::App* command, RunOptions& options) {
   add_positive(command, "--stop", options.stop, "s", "End of the run, such as 20 or \"200 ms\"");
-  std::vector<std::string> methods = stepper_methods();
-  methods.insert(methods.begin(), "auto");
   command->add_option("--solver", options.method, "Method of integration")
-      ->check(CLI::IsMember(methods))
+      ->check(CLI::IsMember(stepper_methods()))
       ->type_name("METHOD");
   add_positive(command, "--rtol", options.rtol, "1", "Relative tolerance");
   add_positive(command, "--atol", options.atol, "1", "Absolute tolerance");

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "models/language/messages.h"
 #include "studies/file.h"
 #include "tools/commands.h"
 #include "tools/console.h"
@@ -25,6 +26,13 @@ SimulationSettings settings_of(const RunOptions& options, SimulationSettings set
   if (options.step) settings.step = options.step;
   if (options.log_interval) settings.log_interval = options.log_interval;
   return settings;
+}
+
+void require_method_that_fits(const Plan& plan, const SimulationSettings& settings) {
+  if (settings.method != "discrete" || plan.layout.states() == 0) return;
+  std::vector<std::string> states;
+  for (int k = plan.layout.first_state; k < plan.layout.first_held; ++k) states.push_back(plan.slot_name(k));
+  throw UsageError("--solver: " + message::discrete_with_states(states));
 }
 
 int status_of(const RunResult& result) {
@@ -50,6 +58,7 @@ std::string report(const RunResult& result, const RunInputs& inputs, const RunOp
 
 RunResult watched_run(const ModelFile& model, const RunOptions& options) {
   const SimulationSettings settings = settings_of(options, model.plan->diagram->simulation);
+  require_method_that_fits(*model.plan, settings);
   ProgressBar bar(output_is_terminal() && error_is_terminal() && !options.quiet);
   LogOptions log;
   log.event_rows = options.event_rows;

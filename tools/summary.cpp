@@ -8,7 +8,7 @@ namespace flyball {
 namespace {
 
 std::string reason_of(const RunResult& result, bool from_command_line) {
-  if (result.settings.method == "auto") return "auto: the method for models of any kind";
+  if (result.settings.method == "auto") return "auto: " + result.method.reason;
   return from_command_line ? "asked for on the command line" : "named by the model";
 }
 
@@ -24,9 +24,9 @@ std::string run_summary(const RunResult& result, const RunInputs& inputs, bool m
   const std::string& title = result.plan->diagram->title;
   std::string text = title.empty() ? inputs.model_file : fmt::format("{} ({})", title, inputs.model_file);
   text += fmt::format("\n  run     {}\n", ending(result));
-  text += fmt::format("  method  {} ({}), rtol {:g}, atol {:g}, steps of at most {:g} s\n", result.method,
-                      reason_of(result, method_from_command_line), result.settings.rtol, result.settings.atol,
-                      result.max_step);
+  text += fmt::format("  method  {} ({}), rtol {:g}, atol {:g}, steps of at most {:g} s\n",
+                      result.method.method, reason_of(result, method_from_command_line), result.settings.rtol,
+                      result.settings.atol, result.max_step);
   text += fmt::format("  steps   {}, {} rejected, {} rate evaluations, {} Jacobians\n", s.steps, s.rejected,
                       s.rate_evaluations, s.jacobians);
   text += fmt::format("  events  {}, {} sample hits, {} alarms\n", result.statistics.events,

@@ -264,5 +264,10 @@ std::string logged_object(Text port) { return format("{} is an object; only numb
 std::string unknown_method(Text name, const Names& known) {
   return format("unknown method \"{}\"{}", name, suggestion(name, known));
 }
+std::string discrete_with_states(const Names& states) {
+  const std::string more = states.size() > 1 ? format(" and {} more", states.size() - 1) : "";
+  return format("the method \"discrete\" integrates nothing, but there are continuous states: {}{}",
+                states.front(), more);
+}
 
 }  // namespace flyball::message

@@ -105,5 +105,6 @@ std::string logged_object(Text port);
 
 // Simulation.
 std::string unknown_method(Text name, const Names& known);
+std::string discrete_with_states(const Names& states);
 
 }  // namespace flyball::message

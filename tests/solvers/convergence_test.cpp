@@ -67,6 +67,7 @@ struct Case {
 // Counts of steps that make the leading term dominate and keep the error two decades above rounding.
 const std::vector<Case> cases = {
     {"euler", 1, 1, {400, 800, 1600, 3200}},
+    {"heun", 2, 2, {400, 800, 1600, 3200}},
     {"rk4", 4, 3, {40, 80, 160, 320}},
     {"dp5", 5, 4, {80, 120, 160, 240}},
 };

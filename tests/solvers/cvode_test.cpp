@@ -329,8 +329,10 @@ TEST_CASE("CVODE without states steps by max_step") {
 
 TEST_CASE("Methods are made by name") {
   auto system = harmonic();
+  auto idle = make_system(0, [](double, const double*, double*) {});
   for (const std::string& method : stepper_methods()) {
-    CHECK(make_stepper(method, system, {.max_step = 1.0, .fixed_step = 0.1}) != nullptr);
+    System<double>& fitting = method == "discrete" ? static_cast<System<double>&>(idle) : system;
+    CHECK(make_stepper(method, fitting, {.max_step = 1.0, .fixed_step = 0.1}) != nullptr);
   }
   CHECK_THROWS_AS(make_stepper("ode45", system, {.max_step = 1.0}), std::invalid_argument);
   CHECK_THROWS_AS(make_stepper("dp5", system, {}), std::invalid_argument);

@@ -5,7 +5,7 @@ using namespace flyball;
 using namespace flyball::test;
 
 TEST_CASE("No allocation in a step, hit, alarm or event after the first of its kind") {
-  for (const std::string method : {"dp5", "rk4", "euler", "adams", "bdf"}) {
+  for (const std::string method : {"auto", "dp5", "rk4", "heun", "euler", "adams", "bdf"}) {
     INFO(method);
     const Model model = read_model(R"toml(
 flyball = 1

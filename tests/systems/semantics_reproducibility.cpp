@@ -65,7 +65,7 @@ TEST_CASE("S32: a model that is read twice gives the same bits") {
 }
 
 TEST_CASE("S33: a run that goes on from a copied workspace gives the same bits") {
-  for (const std::string method : {"dp5", "rk4", "euler"}) {
+  for (const std::string method : {"auto", "dp5", "rk4", "heun", "euler"}) {
     INFO(method);
     const Model model = mixed(method);
     Simulator whole(model.plan, model.settings);

@@ -113,7 +113,7 @@ TEST_CASE("S3: no step is longer than max_step, by default a fiftieth of the run
 }
 
 TEST_CASE("S4: a step ends on the far side of the first change of side in it") {
-  for (const std::string method : {"dp5", "rk4", "euler", "adams", "bdf"}) {
+  for (const std::string method : {"auto", "dp5", "rk4", "heun", "euler", "adams", "bdf"}) {
     INFO(method);
     Run run(read_model(R"(
 flyball = 1

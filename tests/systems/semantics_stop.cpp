@@ -116,7 +116,7 @@ TEST_CASE("S26: an initial value that is not finite names its state") {
 }
 
 TEST_CASE("S26: with every method") {
-  for (const std::string method : {"dp5", "rk4", "euler", "adams", "bdf"}) {
+  for (const std::string method : {"auto", "dp5", "rk4", "heun", "euler", "adams", "bdf"}) {
     INFO(method);
     Run run(model(R"toml(
 one = { type = "Constant", value = -1.0 }

@@ -15,6 +15,8 @@ expect 2 run "$arc" --stop "3 m"
 expect 2 run "$arc" --rtol "1 s"
 expect 2 run "$arc" --solver dp6
 says err "dp5"
+expect 2 run "$arc" --solver discrete
+says err '--solver: the method "discrete" integrates nothing, but there are continuous states: H.x and 1 more'
 expect 2 run "$arc" --event-rows some
 expect 2 run "$arc" --output result.json
 says err 'expected the name of a .csv file, found "result.json"'

@@ -1,0 +1,75 @@
+#include "solvers/auto_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/cvode.h"
+
+namespace flyball {
+namespace {
+
+// Those of dopri5.f; the method is stable up to 3.3 on the negative real axis.
+constexpr double stability_limit = 3.25;
+constexpr int stiff_in_all = 15, calm_in_a_row = 6;
+/// While nothing is suspected, a test now and then will do: it costs a twentieth of a step of a few states.
+constexpr int steps_between_tests = 10;
+
+bool is_stiff(const StepMemory& memory) { return std::isfinite(memory.stiff_since); }
+
+}  // namespace
+
+AutoStep::AutoStep(System<double>& system, const StepperOptions& options)
+    : system_(system), options_(options), explicit_(system, options) {}
+
+void AutoStep::restart(double t, const double* x, StepMemory& memory, bool changed) {
+  // The first restart begins a run, or goes on from a checkpoint with its counts.
+  if (changed && begun_) memory.stiff_steps = memory.calm_steps = 0;
+  begun_ = true;
+  if (!is_stiff(memory)) {
+    end_ = t;
+    return explicit_.restart(t, x, memory, changed);
+  }
+  if (bdf_ == nullptr) {
+    bdf_ = make_bdf(system_, options_);
+    memory.stiff_since = std::min(memory.stiff_since, t);  // an event may have come before the step's end
+    changed = true;
+  }
+  bdf_->restart(t, x, memory, changed);
+}
+
+double AutoStep::step(double limit, StepMemory& memory) {
+  if (is_stiff(memory)) {
+    if (bdf_ == nullptr) restart(end_, explicit_.state(), memory, true);
+    return bdf_->step(limit, memory);
+  }
+  end_ = explicit_.step(limit, memory);
+  test(memory);
+  return end_;
+}
+
+void AutoStep::test(StepMemory& memory) const {
+  if (memory.stiff_steps == 0 && ++memory.untested_steps < steps_between_tests) return;
+  memory.untested_steps = 0;
+  if (explicit_.step_times_stiffness() > stability_limit) {
+    memory.calm_steps = 0;
+    if (++memory.stiff_steps < stiff_in_all) return;
+    memory.stiff_since = end_;
+    memory.stiffest_state = explicit_.limiting_state();
+  } else if (memory.stiff_steps > 0 && ++memory.calm_steps == calm_in_a_row) {
+    memory.stiff_steps = memory.calm_steps = 0;
+  }
+}
+
+StepperStatistics AutoStep::statistics() const {
+  StepperStatistics all = explicit_.statistics();
+  if (bdf_ == nullptr) return all;
+  const StepperStatistics stiff = bdf_->statistics();
+  all.steps += stiff.steps;
+  all.rejected += stiff.rejected;
+  all.rate_evaluations += stiff.rate_evaluations;
+  all.jacobians += stiff.jacobians;
+  all.restarts += stiff.restarts;
+  return all;
+}
+
+}  // namespace flyball
