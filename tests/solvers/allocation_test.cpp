@@ -33,6 +33,7 @@ class Oscillator final : public System<double> {
 TEST_CASE("Steps and restarts do not allocate after the first") {
   for (const std::string& method : stepper_methods()) {
     INFO(method);
+    if (method == "discrete") continue;  // integrates nothing, and owns no memory
     Oscillator system;
     const auto stepper = make_stepper(method, system, {.max_step = 1.0, .fixed_step = 0.01});
     StepMemory memory;
