@@ -9,10 +9,10 @@ namespace flyball {
 
 /// Dormand and Prince's steps until stability limits them, not accuracy; BDF from then on.
 ///
-/// The test is that of dopri5.f: h |lambda| as the last two stages show it exceeds 3.25 in 15 steps, without
-/// 6 in a row that do not. Only steps since rates changed at an instant count: BDF begins at order 1 behind
-/// each change, and pays where there are many steps between two of them. Which method runs is part of
-/// StepMemory.
+/// The test is that of dopri5.f with a lower limit: h |lambda| as the last two stages show it exceeds 1.5 in
+/// 15 steps, without 6 in a row that do not. Only steps since rates changed at an instant count: BDF begins
+/// at order 1 behind each change, and pays where there are many steps between two of them. Which method runs
+/// is part of StepMemory.
 class AutoStep final : public Stepper<double> {
  public:
   AutoStep(System<double>& system, const StepperOptions& options);

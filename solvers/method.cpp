@@ -41,7 +41,7 @@ MethodReport report_method(const std::string& method, const Plan& plan, const Si
   if (method == "exact") return {method, "between hits the rates are linear, and rows are asked for at hits"};
   if (!std::isfinite(memory.stiff_since)) return {"dp5", "the stiffness test found nothing"};
   return {"bdf",
-          fmt::format("dp5 until t = {:.6g} s, where stability had limited 15 steps, most of all {}",
+          fmt::format("dp5 until t = {:.6g} s, where stiffness had limited 15 steps, most of all {}",
                       memory.stiff_since, plan.slot_name(plan.layout.first_state + memory.stiffest_state))};
 }
 

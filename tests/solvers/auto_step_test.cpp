@@ -88,6 +88,19 @@ TEST_CASE("auto turns to BDF where stability limits the steps") {
   CHECK(worst < 20.0 * (tight.atol + tight.rtol));
 }
 
+TEST_CASE("auto stays explicit where max_step is the limit") {
+  auto system = curtiss_hirschfelder(1.0);
+  StepperOptions short_steps = tight;
+  short_steps.rtol = short_steps.atol = 1e3;
+  short_steps.max_step = 2.0;  // of h |lambda| = 2
+  AutoStep stepper(system, short_steps);
+  StepMemory memory{.size = 2.0};
+  stepper.restart(0.0, start, memory, true);
+  run(stepper, 200.0, memory, [](double) {});
+  CHECK(stepper.statistics().steps == 100);
+  CHECK(std::isinf(memory.stiff_since));
+}
+
 TEST_CASE("auto is dp5 to the bit where nothing is stiff") {
   const Problem problem = oscillator();
   auto one = make_system(2, problem.rates), other = make_system(2, problem.rates);

@@ -39,7 +39,7 @@ TEST_CASE("auto turns to BDF on stiff models, and says when and why") {
     INFO(report.reason);
     CHECK(report.method == "bdf");
     CHECK(report.reason.starts_with("dp5 until t = "));
-    CHECK(report.reason.ends_with(std::string(" s, where stability had limited 15 steps, most of all ") +
+    CHECK(report.reason.ends_with(std::string(" s, where stiffness had limited 15 steps, most of all ") +
                                   fast));
     // What comes before the switch is a few dozen steps; dp5 alone takes 34 589 and 1 161 263.
     CHECK(run.simulator().statistics().stepper.steps <
