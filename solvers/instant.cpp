@@ -25,6 +25,9 @@ Instant::Instant(const Plan& plan, Workspace<double>& workspace, PlanSystem& sys
       externals_before_(plan.externals.size()),
       frozen_before_(plan.frozen.size()),
       rates_(plan.layout.states()) {
+  counts_.zeros.resize(static_cast<std::size_t>(zeros.size()));
+  counts_.alarms.resize(plan.alarm_records.size());
+  counts_.hits.resize(plan.hit_rates.size());
   staged_first_.push_back(0);
   for (int i = 0; i < static_cast<int>(plan.placed.size()); ++i) {
     const auto& slots = instance(i).object->specification->slots;
@@ -68,6 +71,7 @@ bool Instant::run(const Due& due) {
 }
 
 void Instant::sweep(const Due* hits) {
+  ++counts_.sweeps;
   const Frame<double> f = frame(plan_, workspace_);
   for (const Op& op : plan_.sweep.ops) {
     if (op.rate >= 0 && (hits == nullptr || hits->rates[op.rate] == 0)) continue;
@@ -83,18 +87,19 @@ void Instant::collect_due(const Due& due) {
   handlers_.clear();
   for (std::size_t r = 0; due.hits && r < plan_.hit_rates.size(); ++r) {
     if (due.rates[r] == 0) continue;
+    ++counts_.hits[r];
     for (const int i : plan_.hit_rates[r].handlers) handlers_.push_back({i, Method::on_sample, 0});
   }
-  for (const int k : due.alarms) handlers_.push_back({plan_.alarm_records[k].instance, Method::on_time, 0});
+  for (const int k : due.alarms) {
+    ++counts_.alarms[k];
+    handlers_.push_back({plan_.alarm_records[k].instance, Method::on_time, 0});
+  }
   if (!due.located) return;
   for (const int k : zeros_.found()) {
-    if (zeros_.is_relation(k)) {
-      ++events_;
-      continue;
-    }
+    ++counts_.zeros[k];
+    if (zeros_.is_relation(k)) continue;
     const CrossingRecord& crossing = plan_.crossing_records[zeros_.number(k)];
     handlers_.push_back({crossing.instance, Method::on_crossing, crossing.local});
-    ++events_;
   }
 }
 
@@ -102,7 +107,7 @@ void Instant::collect_crossings(const std::vector<int>& numbers) {
   for (const int k : numbers) {
     handlers_.push_back(
         {plan_.crossing_records[k].instance, Method::on_crossing, plan_.crossing_records[k].local});
-    ++events_;
+    ++counts_.zeros[zeros_.position_of_crossing(k)];
   }
 }
 

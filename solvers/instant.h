@@ -16,6 +16,14 @@ struct Due {
   bool located = false;  // `Zeros::found` fired
 };
 
+/// What happened at the instants of a run.
+struct EventCounts {
+  std::vector<long> zeros;   // of each relation and crossing, as Zeros counts: how often it fired
+  std::vector<long> alarms;  // of each alarm
+  std::vector<long> hits;    // of each rate
+  long sweeps = 0;
+};
+
 /// The one place where things happen at a point in time, shared by all methods: docs/semantics.md.
 class Instant {
  public:
@@ -30,7 +38,7 @@ class Instant {
   /// The earliest alarm; `never` when none is set.
   double next_alarm() const;
 
-  long events() const { return events_; }
+  const EventCounts& counts() const { return counts_; }
 
  private:
   enum class Method { on_sample, on_time, on_crossing };
@@ -66,7 +74,7 @@ class Instant {
   std::vector<double> saved_;
   std::vector<double> states_before_, externals_before_, frozen_before_;
   std::vector<double> rates_;
-  long events_ = 0;
+  EventCounts counts_;
 };
 
 }  // namespace flyball

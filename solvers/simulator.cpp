@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "solvers/chattering.h"
@@ -107,6 +108,7 @@ bool Simulator::advance() {
   const double limit = std::min(due, settings_.stop);
   bool located = false;
   double end = step_end_ = stepper_->step(limit, workspace_.step);
+  if (profiler_ != nullptr) profiler_->step({time_, end, limit}, *stepper_, workspace_);
   if (!zeros_.none()) end = locate(time_, end, limit, located);
   const bool evaluated = system_.rates_give_outputs() || !zeros_.none();
   if (evaluated && !outputs_are_finite(*plan_, workspace_))
@@ -271,8 +273,21 @@ void Simulator::run(const std::function<bool(double)>& progress) {
 RunStatistics Simulator::statistics() const {
   RunStatistics result = statistics_;
   result.stepper = stepper_->statistics();
-  result.events = instant_.events();
+  const std::vector<long>& fired = instant_.counts().zeros;
+  result.events = std::accumulate(fired.begin(), fired.end(), 0L);
   return result;
+}
+
+Profile Simulator::profile(const Profiler& profiler) const {
+  const StepperStatistics steps = stepper_->statistics();
+  const EventCounts& counts = instant_.counts();
+  return profiler.profile({.rates = steps.rate_evaluations,
+                           .jacobians = steps.jacobians,
+                           .zeros = zeros_.none() ? 0 : zeros_.evaluations(),
+                           .logs = static_cast<long>(log_.rows()),
+                           .sweeps = counts.sweeps,
+                           .hits = counts.hits},
+                          counts, zeros_);
 }
 
 void Simulator::set_parameter(std::string_view name, double value) {

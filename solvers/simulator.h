@@ -7,6 +7,7 @@
 #include "solvers/instant.h"
 #include "solvers/log.h"
 #include "solvers/method.h"
+#include "solvers/profile.h"
 #include "solvers/step_polynomial.h"
 #include "solvers/stepper.h"
 
@@ -51,6 +52,11 @@ class Simulator {
   /// The method that runs now, and the longest step that is allowed.
   MethodReport method() const { return report_method(method_, *plan_, settings_, workspace_.step); }
   double max_step() const { return options_.max_step; }
+
+  /// Has each step from now on seen by a profiler that outlives the run.
+  void profile_with(Profiler& profiler) { profiler_ = &profiler; }
+  /// What a profiler has seen, with the counts of this run.
+  Profile profile(const Profiler& profiler) const;
 
   /// Sets a parameter before the run begins: "K" or "block.parameter", SI. Throws std::invalid_argument when
   /// there is none, when it is structural or derived, or when the value is out of range.
@@ -99,6 +105,7 @@ class Simulator {
   int close_events_ = 0;     // located events in a row without progress
   std::vector<int> recent_;  // what fired in them, as Zeros counts
   RunStatistics statistics_;
+  Profiler* profiler_ = nullptr;
 };
 
 }  // namespace flyball

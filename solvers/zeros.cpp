@@ -76,6 +76,7 @@ const std::vector<int>& Zeros::changed(bool after_rates) {
 }
 
 void Zeros::evaluate(bool after_rates) {
+  ++evaluations_;
   if (!affine_.applies())
     return run(after_rates ? plan_.zeros_rest : plan_.zeros, plan_, frame(plan_, workspace_));
   const double* states = workspace_.values.data() + plan_.layout.first_state;

@@ -20,7 +20,13 @@ class Zeros {
  public:
   Zeros(const Plan& plan, Workspace<double>& workspace);
 
+  /// The slots of what is watched, in the order of positions.
+  static std::vector<int> slots(const Plan& plan) { return slots_of(watch(plan)); }
+
   bool none() const { return watched_.empty(); }
+  int size() const { return static_cast<int>(watched_.size()); }
+  /// How often relations and crossings were evaluated between instants.
+  long evaluations() const { return evaluations_; }
 
   /// What changed side at the point that the workspace holds: positions in the order relations, crossings.
   /// Evaluates first; after `rates` at the same point only the rest is evaluated.
@@ -62,6 +68,8 @@ class Zeros {
   /// Of the bit, or of the crossing.
   int number(int watched) const { return watched_[watched].number; }
   int slot(int watched) const { return watched_[watched].slot; }
+  /// The position of a crossing.
+  int position_of_crossing(int number) const { return first_crossing_ + number; }
   /// What the last `changed` or `locate` found.
   const std::vector<int>& found() const { return changed_; }
 
@@ -87,6 +95,7 @@ class Zeros {
   const Plan& plan_;
   Workspace<double>& workspace_;
   int first_crossing_;  // in watched_
+  long evaluations_ = 0;
   std::vector<Watched> watched_;
   AffineProgram affine_;
   std::vector<double> affine_values_;

@@ -18,11 +18,13 @@ std::string to_string(RunStatus status) {
   return {};
 }
 
-RunResult run_plan(std::shared_ptr<const Plan> plan, const SimulationSettings& settings, LogOptions log,
-                   const std::function<bool(double)>& progress) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
-  Simulator simulator(plan, settings, log);
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// `start` is when the work on this run began.
+RunResult run(Simulator& simulator, std::shared_ptr<const Plan> plan, const SimulationSettings& settings,
+              const std::function<bool(double)>& progress, Clock::time_point start) {
   RunResult result{std::move(plan), settings, Log(simulator.plan())};
   const auto watched = [&](double part) {
     if (!progress || progress(part)) return true;
@@ -41,6 +43,27 @@ RunResult run_plan(std::shared_ptr<const Plan> plan, const SimulationSettings& s
   result.method = simulator.method();
   result.max_step = simulator.max_step();
   result.end = simulator.time();
+  return result;
+}
+
+}  // namespace
+
+RunResult run_plan(std::shared_ptr<const Plan> plan, const SimulationSettings& settings, LogOptions log,
+                   const std::function<bool(double)>& progress) {
+  const Clock::time_point start = Clock::now();
+  Simulator simulator(plan, settings, log);
+  return run(simulator, std::move(plan), settings, progress, start);
+}
+
+RunResult profile_plan(std::shared_ptr<const Plan> plan, const SimulationSettings& settings, LogOptions log,
+                       const std::function<bool(double)>& progress) {
+  const Clock::time_point start = Clock::now();
+  Simulator simulator(plan, settings, log);
+  Profiler profiler(*plan, settings.stop, simulator.max_step());
+  simulator.profile_with(profiler);
+  RunResult result = run(simulator, std::move(plan), settings, progress, start);
+  result.profile = simulator.profile(profiler);
+  result.wall_time -= profiler.own_time();
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "solvers/simulator.h"
@@ -26,11 +27,16 @@ struct RunResult {
   double wall_time = 0.0;  // s
   RunStatus status = RunStatus::finished;
   std::string reason = {};  // of a stop
+  std::optional<Profile> profile = {};
 };
 
 /// Runs a plan once. `progress` gets the part done, from 0 to 1, and interrupts the run by giving false.
 /// A SimulationError ends up in the result.
 RunResult run_plan(std::shared_ptr<const Plan> plan, const SimulationSettings& settings, LogOptions log = {},
                    const std::function<bool(double)>& progress = {});
+
+/// The same with a profile in the result, whose wall time is without the profiler's.
+RunResult profile_plan(std::shared_ptr<const Plan> plan, const SimulationSettings& settings,
+                       LogOptions log = {}, const std::function<bool(double)>& progress = {});
 
 }  // namespace flyball

@@ -100,6 +100,8 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
   add_output(command, options);
   add_overrides(command, options.overrides);
   add_solver_options(command, options);
+  command->add_flag("--profile", options.profile,
+                    "Show time and events by block, step sizes over time, and which states limited them");
   command->add_flag("--json", options.json, "Print the summary as JSON");
   command->add_flag("-q,--quiet", options.quiet, "Print errors only");
   command->footer(

@@ -26,6 +26,7 @@ struct RunOptions {
   std::optional<Rational> log_interval;
   std::optional<std::string> method;
   EventRows event_rows = EventRows::both;
+  bool profile = false;
   bool json = false;
   bool quiet = false;
 };

@@ -11,6 +11,7 @@
 #include "tools/interrupt.h"
 #include "tools/json.h"
 #include "tools/model_file.h"
+#include "tools/profile_report.h"
 #include "tools/progress_bar.h"
 #include "tools/summary.h"
 
@@ -62,7 +63,8 @@ RunResult watched_run(const ModelFile& model, const RunOptions& options) {
   ProgressBar bar(output_is_terminal() && error_is_terminal() && !options.quiet);
   LogOptions log;
   log.event_rows = options.event_rows;
-  return run_plan(model.plan, settings, log, [&](double part) {
+  const auto run = options.profile ? profile_plan : run_plan;
+  return run(model.plan, settings, log, [&](double part) {
     bar.show(part);
     return InterruptWatch::signal_number() == 0;
   });
@@ -89,9 +91,11 @@ int run_command(const RunOptions& options) {
     complain(fmt::format("{}: error: {}\n", model.name, result.reason));
   if (options.json) {
     const auto sidecar = std::filesystem::path(options.output).replace_extension("json");
-    print(written.files.empty() ? metadata_json(result, inputs) : read_file(sidecar));
+    const std::string text = written.files.empty() ? metadata_json(result, inputs) : read_file(sidecar);
+    print(result.profile ? with_profile(text, *result.profile) : text);
   } else if (!options.quiet) {
     print(report(result, inputs, options, written));
+    if (result.profile) print(profile_text(result));
   }
   return status_of(result);
 }

@@ -35,6 +35,15 @@ says out '"steps": 2000'
 expect 0 run "$arc" --solver dp5 --rtol 1e-5 --atol 1e-7 --max-step "50 ms"
 says out "dp5 (asked for on the command line), rtol 1e-05, atol 1e-07, steps of at most 0.05 s"
 
+expect 0 run "$arc" --profile
+says out "Time in blocks: "
+says out "state with the largest error"
+expect 0 run "$arc" --profile --json --quiet
+says out '"limiting"'
+expect 0 run "$arc" --profile --json --output profiled.csv
+says out '"until_instant"'
+! grep -q until_instant profiled.json || fail "the sidecar depends on the machine"
+
 # A jump at 1 s has two rows, one or none besides the asked times, which are 0 s and 3 s.
 cat >jump.toml <<'TOML'
 flyball = 1
