@@ -29,6 +29,8 @@ struct BlockTime {
 class BlockTimes {
  public:
   explicit BlockTimes(const Plan& plan);
+  BlockTimes(const BlockTimes&) = delete;
+  BlockTimes& operator=(const BlockTimes&) = delete;
 
   void sample(const Workspace<double>& workspace, const Stepper<double>& stepper);
   int points() const { return points_; }
