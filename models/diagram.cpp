@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "models/diagram_blocks.h"
+#include "models/diagram_guesses.h"
 #include "models/diagram_log.h"
 #include "models/diagram_overrides.h"
 #include "models/diagram_parameters.h"
@@ -93,12 +94,14 @@ class DiagramReader {
 
   void read_diagram_section() {
     const TomlValue* diagram = section("diagram");
-    if (diagram != nullptr) report_.check_keys(*diagram, "[diagram]", {"wires", "log"});
+    if (diagram != nullptr) report_.check_keys(*diagram, "[diagram]", {"wires", "log", "guesses"});
     const TomlValue* wires = diagram == nullptr ? nullptr : diagram->find("wires");
     ModelWires connections(blocks_, report_);
     if (wires != nullptr) connections.read(*wires);
     connections.check_missing();
     diagram_.logged = read_log(diagram == nullptr ? nullptr : diagram->find("log"), blocks_, report_);
+    const TomlValue* guesses = diagram == nullptr ? nullptr : diagram->find("guesses");
+    if (guesses != nullptr) diagram_.guesses = read_guesses(*guesses, blocks_, parameters_, report_);
   }
 
   std::vector<std::string> state_names() {

@@ -58,6 +58,13 @@ struct Logged {
   Endpoint source;
 };
 
+/// Where the solution of an algebraic loop is looked for at the start.
+struct Guess {
+  Endpoint of;
+  double value = 0.0;
+  Position at;
+};
+
 /// [simulation], with its defaults.
 struct SimulationSettings {
   double stop = 10.0;
@@ -67,6 +74,7 @@ struct SimulationSettings {
   std::optional<double> max_step;        // default: a fiftieth of the run
   std::optional<double> step;            // of fixed-step methods; default: a thousandth of the run
   std::optional<Rational> log_interval;  // default: a thousandth of the run
+  bool refuse_loops = false;             // algebraic loops are solved, else refused
 };
 
 /// A checked model: every name resolved, every input connected, every structure constructed. Immutable.
@@ -77,6 +85,7 @@ struct Diagram {
   std::vector<Parameter> parameters;
   std::vector<Instance> instances;
   std::vector<Logged> logged;
+  std::vector<Guess> guesses;
   SimulationSettings simulation;
 
   int find_instance(std::string_view name) const;   ///< -1 when there is none

@@ -19,16 +19,25 @@ class SimulationReader {
       : states_(states), parameters_(parameters), report_(report) {}
 
   SimulationSettings read(const TomlValue& section) {
-    report_.check_keys(section, "[simulation]", {"stop", "solver", "log_interval"});
+    report_.check_keys(section, "[simulation]", {"stop", "solver", "log_interval", "algebraic_loops"});
     settings_.stop = above_zero(section, "stop", "s").value_or(settings_.stop);
     if (const TomlValue* solver = section.find("solver")) read_solver(*solver);
     if (above_zero(section, "log_interval", "s")) {
       settings_.log_interval = parameters_.exact(*section.find("log_interval"), "s");
     }
+    if (const TomlValue* loops = section.find("algebraic_loops")) read_loops(*loops);
     return settings_;
   }
 
  private:
+  void read_loops(const TomlValue& loops) {
+    if (!report_.expect(loops, TomlValue::Kind::string, "\"solve\" or \"refuse\"")) return;
+    settings_.refuse_loops = loops.text == "refuse";
+    if (loops.text == "solve" || settings_.refuse_loops) return;
+    report_.error_inside(loops, 0,
+                         message::unknown_choice("algebraic_loops", loops.text, {"solve", "refuse"}));
+  }
+
   void read_solver(const TomlValue& solver) {
     if (!report_.expect(solver, TomlValue::Kind::table, "a table such as { method = \"dp5\" }")) return;
     report_.check_keys(solver, "solver", {"method", "rtol", "atol", "max_step", "step"});

@@ -166,6 +166,9 @@ class SlotGiver {
 void lay_out(Plan& plan, const Order& order) {
   place(plan, order);
   SlotGiver(plan, order).run();
+  for (const Guess& guess : plan.diagram->guesses) {
+    plan.initial.push_back({plan.index_of(guess.of.instance)[guess.of.slot], guess.value, -1});
+  }
   for (const Logged& logged : plan.diagram->logged) {
     plan.columns.push_back(
         {logged.name, logged.unit, plan.index_of(logged.source.instance)[logged.source.slot]});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace flyball {
 
@@ -13,6 +14,7 @@ Order::Order(const Diagram& diagram) : diagram_(&diagram) {
   }
   source_.resize(nodes());
   level_.assign(nodes(), -1);
+  cycle_.assign(nodes(), -1);
 }
 
 std::optional<Order> Order::of(const Diagram& diagram, Diagnostics& diagnostics) {
@@ -20,11 +22,10 @@ std::optional<Order> Order::of(const Diagram& diagram, Diagnostics& diagnostics)
   const int before = diagnostics.errors();
   order.resolve_sources(diagnostics);
   if (diagnostics.errors() > before) return std::nullopt;
-  if (!order.sort()) {
-    order.report_loop(diagnostics);
-    return std::nullopt;
-  }
-  return order;
+  order.sort();
+  order.check_guesses(diagnostics);
+  for (const Cycle& cycle : order.cycles_) order.check(cycle, diagnostics);
+  return diagnostics.errors() > before ? std::nullopt : std::optional(std::move(order));
 }
 
 Endpoint Order::endpoint(int node) const {
@@ -37,6 +38,8 @@ bool Order::evaluated(Endpoint e) const {
   const SlotKind kind = spec(e.instance).slots[e.slot].kind;
   return kind == SlotKind::output || kind == SlotKind::object_output || kind == SlotKind::relation;
 }
+
+bool Order::computed(Endpoint e) const { return evaluated(e) && !source_[node(e)].connected(); }
 
 void Order::resolve_sources(Diagnostics& diagnostics) {
   const int n = static_cast<int>(diagram_->instances.size());
@@ -72,95 +75,116 @@ void Order::resolve_sources(Diagnostics& diagnostics) {
   source_ = std::move(resolved);
 }
 
-bool Order::sort() {
-  std::vector<int> waiting(nodes(), 0), first(nodes() + 1, 0), after;
-  std::vector<std::pair<int, int>> edges;  // from, to
-  std::vector<int> ready;
-  int left = 0;
+/// An edge leads from each output and relation to those that read it.
+Graph Order::reads() const {
+  std::vector<std::pair<int, int>> edges;
   for (int i = 0; i < static_cast<int>(diagram_->instances.size()); ++i) {
     const BlockObject& object = *diagram_->instances[i].object;
     for (int s = 0; s < static_cast<int>(object.reads.size()); ++s) {
-      if (!evaluated({i, s}) || source_[node(i, s)].connected()) continue;
-      ++left;
-      behind(i, object.reads[s], [&](Endpoint e) {
-        edges.emplace_back(node(e), node(i, s));
-        ++waiting[node(i, s)];
-      });
-      if (waiting[node(i, s)] == 0) ready.push_back(node(i, s));
+      if (!computed({i, s})) continue;
+      behind(i, object.reads[s], [&](Endpoint e) { edges.emplace_back(node(e), node(i, s)); });
     }
   }
-  for (const auto& [from, to] : edges) ++first[from + 1];
-  for (int k = 0; k < nodes(); ++k) first[k + 1] += first[k];
-  after.resize(edges.size());
-  std::vector<int> fill(first.begin(), first.end() - 1);
-  for (const auto& [from, to] : edges) after[fill[from]++] = to;
-  for (levels_ = 0; !ready.empty(); ++levels_) {
-    std::vector<int> next;
-    for (const int at : ready) {
-      level_[at] = levels_;
-      --left;
-      for (int k = first[at]; k < first[at + 1]; ++k) {
-        if (--waiting[after[k]] == 0) next.push_back(after[k]);
-      }
-    }
-    ready = std::move(next);
-  }
-  return left == 0;
+  return make_graph(nodes(), edges);
 }
 
-std::vector<Endpoint> Order::find_loop() const {
-  const auto unsorted = [&](Endpoint e) {
-    return evaluated(e) && !source_[node(e)].connected() && level_[node(e)] < 0;
-  };
-  Endpoint at;
-  for (int k = 0; k < nodes() && !at.connected(); ++k) {
-    if (unsorted(endpoint(k))) at = endpoint(k);
+void Order::sort() {
+  const Graph graph = reads();
+  const Components components = strong_components(graph);
+  std::vector<int> level(components.count, 0), order(nodes());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](int node) { return components.of[node]; });
+  for (const int from : order) {
+    for (int k = graph.first[from]; k < graph.first[from + 1]; ++k) {
+      const int component = components.of[graph.to[k]];
+      if (component == components.of[from]) continue;
+      level[component] = std::max(level[component], level[components.of[from]] + 1);
+    }
   }
-  // Every unsorted node has an unsorted one behind it, so walking back must meet itself.
-  std::vector<int> seen(nodes(), -1);
-  std::vector<Endpoint> walk;
-  while (seen[node(at)] < 0) {
-    seen[node(at)] = static_cast<int>(walk.size());
-    walk.push_back(at);
-    Endpoint before;
-    behind(at.instance, diagram_->instances[at.instance].object->reads[at.slot], [&](Endpoint e) {
-      if (!before.connected() && unsorted(e)) before = e;
+  for (int node = 0; node < nodes(); ++node) {
+    if (!computed(endpoint(node))) continue;
+    level_[node] = level[components.of[node]];
+    levels_ = std::max(levels_, level_[node] + 1);
+  }
+  find_cycles(graph, components);
+}
+
+void Order::find_cycles(const Graph& graph, const Components& components) {
+  const std::vector<bool> cyclic = on_cycle(graph, components);
+  std::vector<int> number(components.count, -1);
+  std::vector<std::vector<int>> outputs, unsampled;
+  std::vector<int> first;
+  for (int node = 0; node < nodes(); ++node) {
+    if (!cyclic[node]) continue;
+    int& cycle = number[components.of[node]];
+    if (cycle < 0) {
+      cycle = static_cast<int>(cycles_.size());
+      cycles_.emplace_back().level = level_[node];
+      outputs.emplace_back();
+      unsampled.emplace_back();
+      first.push_back(node);
+    }
+    cycle_[node] = cycle;
+    const Endpoint e = endpoint(node);
+    if (spec(e.instance).slots[e.slot].kind == SlotKind::relation) {
+      cycles_[cycle].relations.push_back(node);
+      continue;
+    }
+    outputs[cycle].push_back(node);
+    if (!spec(e.instance).sampled()) unsampled[cycle].push_back(node);
+  }
+  for (std::size_t c = 0; c < cycles_.size(); ++c) {
+    cycles_[c].at_hits = knots(outputs[c]);
+    cycles_[c].in_steps = knots(unsampled[c]);
+    const std::vector<Endpoint> loop = loop_of(first[c]);
+    cycles_[c].chain = chain_of(loop);
+    cycles_[c].begins = loop.front().instance;
+  }
+}
+
+/// The reads among some nodes, which are numbered by their position; ascending.
+Graph Order::among(const std::vector<int>& nodes) const {
+  std::vector<std::pair<int, int>> edges;
+  for (int k = 0; k < static_cast<int>(nodes.size()); ++k) {
+    const Endpoint e = endpoint(nodes[k]);
+    behind(e.instance, diagram_->instances[e.instance].object->reads[e.slot], [&](Endpoint from) {
+      const auto at = std::ranges::lower_bound(nodes, node(from));
+      if (at != nodes.end() && *at == node(from)) edges.emplace_back(static_cast<int>(at - nodes.begin()), k);
     });
-    at = before;
   }
-  walk.erase(walk.begin(), walk.begin() + seen[node(at)]);
-  std::ranges::reverse(walk);
-  // Begin with the block that stands first in the file.
-  const auto first =
-      std::ranges::min_element(walk, {}, [&](Endpoint e) { return diagram_->instances[e.instance].at; });
-  std::ranges::rotate(walk, first);
-  return walk;
+  return make_graph(static_cast<int>(nodes.size()), edges);
 }
 
-void Order::report_loop(Diagnostics& diagnostics) const {
-  const std::vector<Endpoint> loop = find_loop();
-  const auto name = [&](Endpoint e) {
-    return fmt::format("{}.{}", diagram_->instances[e.instance].name, spec(e.instance).slots[e.slot].name);
-  };
-  std::string chain = name(loop.front());
-  for (std::size_t k = 1; k <= loop.size(); ++k) {
-    const Endpoint from = loop[k - 1], to = loop[k % loop.size()];
-    for (int s = 0; s < static_cast<int>(spec(to.instance).slots.size()); ++s) {
-      const bool reads =
-          std::ranges::binary_search(diagram_->instances[to.instance].object->reads[to.slot], s);
-      if (reads && source_[node(to.instance, s)] == from) {
-        chain += fmt::format(" -> {}", name({to.instance, s}));
-        break;
-      }
-    }
-    chain += fmt::format(" -> {}", name(to));
+/// Which of some nodes have a guess of their own.
+std::vector<bool> Order::guessed(const std::vector<int>& nodes) const {
+  std::vector<bool> result;
+  for (const int node : nodes) {
+    result.push_back(std::ranges::any_of(diagram_->guesses,
+                                         [&](const Guess& guess) { return behind_port(guess.of) == node; }));
   }
-  const Instance& begin = diagram_->instances[loop.front().instance];
-  diagnostics.error(begin.at, fmt::format("algebraic loop: {}", chain));
-  diagnostics.note(
-      begin.at,
-      "each of these needs the next one at the same time; an Integrator, a strictly proper TransferFcn "
-      "or a UnitDelay anywhere in the chain breaks it");
+  return result;
+}
+
+/// Untangles some outputs, as far as they read each other.
+std::vector<Knot> Order::knots(const std::vector<int>& outputs) const {
+  const Graph graph = among(outputs);
+  const Components components = strong_components(graph);
+  const std::vector<bool> cyclic = on_cycle(graph, components);
+  std::vector<std::vector<int>> parts(components.count);
+  for (int k = 0; k < graph.nodes(); ++k) parts[components.of[k]].push_back(outputs[k]);
+  std::vector<Knot> result(parts.size());
+  for (int k = 0; k < graph.nodes(); ++k) {
+    const int part = components.of[k];
+    if (!cyclic[k] || !result[part].members.empty()) continue;
+    const Graph inner = among(parts[part]);
+    const std::vector<int> tears = feedback_nodes(inner, guessed(parts[part]));
+    for (const int tear : tears) result[part].tears.push_back(parts[part][tear]);
+    for (const int member : sorted_nodes(inner, tears)) result[part].members.push_back(parts[part][member]);
+  }
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    if (result[part].members.empty()) result[part].members = parts[part];
+  }
+  return result;
 }
 
 }  // namespace flyball

@@ -32,7 +32,20 @@ class PatternFinder {
     std::vector<States> row(plan_.layout.states());
     for (int k = 0; k < plan_.layout.states(); ++k)
       row[k] = of_slot_[plan_.layout.first_state + k];  // diagonal
-    for (const Op& op : plan_.rates.ops) {
+    int done = 0;
+    for (const LoopSpan& span : plan_.rates.loops) {
+      propagate(done, span.first, row);
+      close(span, row);
+      done = span.last;
+    }
+    propagate(done, static_cast<int>(plan_.rates.ops.size()), row);
+    compress(row);
+  }
+
+ private:
+  void propagate(int first, int last, std::vector<States>& row) {
+    for (int at = first; at < last; ++at) {
+      const Op& op = plan_.rates.ops[at];
       for (int k = 0; k < op.count; ++k) {
         const int* index = plan_.index.data() + op.first + k * op.stride;
         for (int s = 0; s < op.stride; ++s) {
@@ -47,10 +60,24 @@ class PatternFinder {
         }
       }
     }
-    compress(row);
   }
 
- private:
+  /// All members of a loop depend on whatever any of them does.
+  void close(const LoopSpan& span, std::vector<States>& row) {
+    propagate(span.first, span.last, row);
+    States all;
+    for (const Loop::Tear& tear : plan_.loops[span.loop].tears) all = joined(all, of_slot_[tear.slot]);
+    for (int at = span.first; at < span.last; ++at) {
+      const Op& op = plan_.rates.ops[at];
+      const auto& slots = op.object->specification->slots;
+      for (int k = 0; k < op.count * op.stride; ++k) {
+        const int slot = plan_.index[op.first + k];
+        const bool output = slots[k % op.stride].kind == SlotKind::output;
+        if (output && slot >= plan_.layout.first_output) of_slot_[slot] = joined(of_slot_[slot], all);
+      }
+    }
+  }
+
   States behind(const BlockObject& object, const std::vector<int>& reads, const int* index) const {
     States result;
     for (const int s : reads) {

@@ -48,10 +48,55 @@ struct Op {
   int settle_count = 0;
 };
 
+/// Calls `first` to `last` - 1 of a program need each other's results at the same time: Plan::loops.
+struct LoopSpan {
+  int first = 0;
+  int last = 0;
+  int loop = -1;
+};
+
+/// Calls `first` to `last` - 1 are run again until the bits that they read are those that their results give.
+struct ModeSpan {
+  int first = 0;
+  int last = 0;
+  int settle_first = 0;  // Program::settle
+  int settle_count = 0;
+  int chain = -1;  // Plan::chains
+};
+
 /// What is run, in order.
 struct Program {
   std::vector<Op> ops;
   std::vector<int> settle;  // slots of relations
+  std::vector<LoopSpan> loops;
+  std::vector<ModeSpan> modes;
+};
+
+/// An algebraic loop. Its tears are guessed; the calls of its span then compute the other members, and the
+/// tears once more, which must not differ from the guess.
+struct Loop {
+  struct Tear {
+    int slot = -1;
+    int rate = -1;  // of sampled blocks: stands still but at this rate's hits
+  };
+  /// After a call, the output that is a tear holds what was computed: the guess goes back to its place.
+  struct Return {
+    int op = 0;  // counted from the first call of the span
+    int tear = -1;
+    bool final = false;  // all that the tear reads is known by now
+  };
+  std::vector<Tear> tears;
+  bool guessed = false;         // the model says where to look for the solution
+  std::vector<Return> returns;  // in the order of calls
+  std::vector<int> slots;       // all numbers that its calls read or write
+  bool affine = true;           // as long as bits and held values stand still
+  int chain = -1;               // Plan::chains
+};
+
+/// One way round an algebraic loop, as users are told.
+struct Chain {
+  int begins = -1;   // instance
+  std::string text;  // "sum.y -> k.u -> k.y -> sum.u2 -> sum.y"
 };
 
 /// Sampled blocks that share period and offset: hit k is at tick offset + k * period of the base tick.
@@ -122,6 +167,8 @@ struct Plan {
   Program crossings;           // just the crossings, after a sweep
   Program schedules;           // all alarms
   std::vector<int> externals;  // slots that `rates` reads and does not write, but for states and parameters
+  std::vector<Chain> chains;   // of each algebraic loop, those that only bits close included
+  std::vector<Loop> loops;     // of all programs
   std::vector<int> switches;   // relations and held values that blocks of these programs read as their own
   std::vector<int> frozen;     // all of both, and what `zeros` and `logs` read or give and do not write
 
@@ -144,8 +191,8 @@ struct Plan {
   int parameter_slot(std::string_view name) const;
 };
 
-/// Plans a checked diagram. Algebraic loops, and sample times without a common tick, are reported to
-/// `diagnostics`; then the result is empty.
+/// Plans a checked diagram. Algebraic loops that cannot be solved, and sample times without a common tick,
+/// are reported to `diagnostics`; then the result is empty.
 std::shared_ptr<const Plan> make_plan(std::shared_ptr<const Diagram> diagram, Diagnostics& diagnostics);
 
 }  // namespace flyball

@@ -1,17 +1,21 @@
 #include <algorithm>
 #include <limits>
-#include <tuple>
+#include <map>
 
+#include "models/calls.h"
 #include "models/layout.h"
 
 namespace flyball {
 namespace {
 
 /// One instance asked for one phase; calls are sorted by level, phase and place and then joined to batches.
+/// In a cycle the knots come one after the other; a knot with tears is one call.
 struct Call {
   int level = 0;
+  int knot = 0;
   Phase phase = Phase::outputs;
   int place = 0;
+  int cycle = -1;  // of a knot with tears; then there is no place
 
   auto operator<=>(const Call&) const = default;
 };
@@ -21,11 +25,21 @@ constexpr int last_level = std::numeric_limits<int>::max();
 class ProgramWriter {
  public:
   ProgramWriter(Plan& plan, const Order& order)
-      : plan_(plan), order_(order), place_of_(plan.placed.size()), moves_(order.nodes(), false) {
+      : plan_(plan),
+        order_(order),
+        place_of_(plan.placed.size()),
+        knot_(order.nodes(), 0),
+        moves_(order.nodes(), false) {
     for (int k = 0; k < static_cast<int>(plan.placed.size()); ++k) place_of_[plan.placed[k]] = k;
+    for (const Cycle& cycle : order.cycles()) {
+      for (std::size_t k = 0; k < cycle.in_steps.size(); ++k) {
+        for (const int node : cycle.in_steps[k].members) knot_[node] = static_cast<int>(k);
+      }
+    }
   }
 
   void run() {
+    for (const Cycle& cycle : order_.cycles()) plan_.chains.push_back({cycle.begins, cycle.chain});
     write_sweep();
     find_moving();
     const std::vector<bool> rates_cone = cone_of_rates(), zeros_cone = cone_of_zeros();
@@ -52,48 +66,45 @@ class ProgramWriter {
   const SlotSpec& slot(Endpoint e) const { return object(e.instance).specification->slots[e.slot]; }
   int instances() const { return static_cast<int>(plan_.placed.size()); }
 
-  Program assemble(std::vector<Call> calls, const std::vector<Call>& more = {}) const {
+  Program assemble(std::vector<Call> calls, const std::vector<Call>& more = {}) {
     std::ranges::sort(calls);
     calls.erase(std::unique(calls.begin(), calls.end()), calls.end());
     calls.insert(calls.end(), more.begin(), more.end());
     Program program;
-    for (const Call& call : calls) append(program, call);
+    for (const Call& call : calls) {
+      if (call.cycle < 0) {
+        append_call(plan_, program, call.phase, call.place);
+      } else {
+        append_loop(program, order_.cycles()[call.cycle], order_.cycles()[call.cycle].in_steps[call.knot]);
+      }
+    }
     return program;
   }
 
-  void append(Program& program, const Call& call) const {
-    const int instance = plan_.placed[call.place];
-    const BlockObject& what = object(instance);
-    if (!program.ops.empty()) {
-      Op& last = program.ops.back();
-      // Objects are shared by structure, the sample time included, so one object has one rate.
-      if (last.object == &what && last.phase == call.phase && last.place + last.count == call.place) {
-        ++last.count;
-        return;
-      }
-    }
-    Op op;
-    op.object = &what;
-    op.self = what.self.get();
-    op.phase = call.phase;
-    op.on_double = what.type->kernels.on_double.sweep(call.phase);
-    op.on_jet = what.type->kernels.on_jet.sweep(call.phase);
-    op.first = plan_.map[instance];
-    op.stride = static_cast<int>(what.specification->slots.size());
-    op.count = 1;
-    op.place = call.place;
-    op.rate = plan_.rate_of[instance];
-    program.ops.push_back(op);
+  /// All programs share the numbers of a loop, so what one of them learns of it serves the others.
+  void append_loop(Program& program, const Cycle& cycle, const Knot& knot) {
+    LoopCalls calls = write_loop(plan_, order_, knot, place_of_);
+    calls.loop.chain = chain_of(cycle);
+    const auto [known, is_new] = loops_.emplace(&knot, static_cast<int>(plan_.loops.size()));
+    if (is_new) plan_.loops.push_back(std::move(calls.loop));
+    const auto first = static_cast<int>(program.ops.size());
+    program.ops.insert(program.ops.end(), calls.ops.begin(), calls.ops.end());
+    program.loops.push_back({first, static_cast<int>(program.ops.size()), known->second});
   }
+
+  int chain_of(const Cycle& cycle) const { return static_cast<int>(&cycle - order_.cycles().data()); }
 
   /// Everything, level by level; the bits of a relation settle in its own level.
   void write_sweep() {
     std::vector<Call> calls;
+    std::vector<std::vector<const Cycle*>> cycles(order_.levels());
+    for (const Cycle& cycle : order_.cycles()) cycles[cycle.level].push_back(&cycle);
     for (int node = 0; node < order_.nodes(); ++node) {
-      if (order_.level(node) < 0) continue;
+      if (order_.level(node) < 0 || order_.cycle(node) >= 0) continue;
       const Endpoint e = order_.endpoint(node);
       const bool bit = slot(e).kind == SlotKind::relation;
-      calls.push_back({order_.level(node), bit ? Phase::relations : Phase::outputs, place_of_[e.instance]});
+      calls.push_back(
+          {order_.level(node), 0, bit ? Phase::relations : Phase::outputs, place_of_[e.instance]});
     }
     std::ranges::sort(calls);
     calls.erase(std::unique(calls.begin(), calls.end()), calls.end());
@@ -101,12 +112,45 @@ class ProgramWriter {
     for (int level = 0; level < order_.levels(); ++level) {
       // A batch must not reach over levels: what it settles would come too late or too early.
       Program part;
-      for (; done < calls.size() && calls[done].level == level; ++done) append(part, calls[done]);
+      for (; done < calls.size() && calls[done].level == level; ++done) {
+        append_call(plan_, part, calls[done].phase, calls[done].place);
+      }
       for (Op op : part.ops) {
         if (op.phase == Phase::relations) settle(op, level);
         plan_.sweep.ops.push_back(op);
       }
+      for (const Cycle* cycle : cycles[level]) write_cycle(*cycle);
     }
+  }
+
+  /// The outputs for given bits, then the relations that set these bits.
+  void write_cycle(const Cycle& cycle) {
+    Program& sweep = plan_.sweep;
+    ModeSpan span;
+    span.first = static_cast<int>(sweep.ops.size());
+    for (const Knot& knot : cycle.at_hits) {
+      if (!knot.tears.empty()) {
+        append_loop(sweep, cycle, knot);
+      } else {
+        const Endpoint e = order_.endpoint(knot.members.front());
+        append_call(plan_, sweep, Phase::outputs, place_of_[e.instance], false);
+      }
+    }
+    if (cycle.relations.empty()) return;
+    span.settle_first = static_cast<int>(sweep.settle.size());
+    std::vector<Call> calls;
+    for (const int node : cycle.relations) {
+      const Endpoint e = order_.endpoint(node);
+      calls.push_back({cycle.level, 0, Phase::relations, place_of_[e.instance]});
+      sweep.settle.push_back(plan_.index_of(e.instance)[e.slot]);
+    }
+    std::ranges::sort(calls);
+    calls.erase(std::unique(calls.begin(), calls.end()), calls.end());
+    for (const Call& call : calls) append_call(plan_, sweep, call.phase, call.place, false);
+    span.last = static_cast<int>(sweep.ops.size());
+    span.settle_count = static_cast<int>(cycle.relations.size());
+    span.chain = chain_of(cycle);
+    sweep.modes.push_back(std::move(span));
   }
 
   void settle(Op& op, int level) {
@@ -114,7 +158,8 @@ class ProgramWriter {
     for (int k = 0; k < op.count; ++k) {
       const int instance = plan_.placed[op.place + k];
       for (int s = 0; s < op.stride; ++s) {
-        const bool here = order_.level(order_.node(instance, s)) == level;
+        const int node = order_.node(instance, s);
+        const bool here = order_.level(node) == level && order_.cycle(node) < 0;
         if (here && slot({instance, s}).kind == SlotKind::relation) {
           plan_.sweep.settle.push_back(plan_.index_of(instance)[s]);
         }
@@ -126,7 +171,8 @@ class ProgramWriter {
   std::vector<Call> calls_with(SlotKind kind, Phase phase) const {
     std::vector<Call> calls;
     for (int place = 0; place < instances(); ++place) {
-      if (object(plan_.placed[place]).specification->has(kind)) calls.push_back({last_level, phase, place});
+      if (object(plan_.placed[place]).specification->has(kind))
+        calls.push_back({last_level, 0, phase, place});
     }
     return calls;
   }
@@ -134,8 +180,11 @@ class ProgramWriter {
   std::vector<Call> cone_calls(const std::vector<bool>& cone) const {
     std::vector<Call> calls;
     for (int node = 0; node < order_.nodes(); ++node) {
-      if (cone[node])
-        calls.push_back({order_.level(node), Phase::outputs, place_of_[order_.endpoint(node).instance]});
+      if (!cone[node]) continue;
+      const int cycle = order_.cycle(node), level = order_.level(node);
+      const bool torn = cycle >= 0 && !order_.cycles()[cycle].in_steps[knot_[node]].tears.empty();
+      const int place = torn ? -1 : place_of_[order_.endpoint(node).instance];
+      calls.push_back({level, knot_[node], Phase::outputs, place, torn ? cycle : -1});
     }
     return calls;
   }
@@ -143,19 +192,31 @@ class ProgramWriter {
   /// Finds the outputs that move during a step: unsampled, and behind them time or a state. What does not
   /// move keeps the value of the last sweep, so minor steps need not compute it.
   void find_moving() {
-    std::vector<std::vector<Endpoint>> of_level(order_.levels());
+    std::vector<std::vector<int>> plain(order_.levels());
+    std::vector<std::vector<const Cycle*>> cycles(order_.levels());
+    for (const Cycle& cycle : order_.cycles()) cycles[cycle.level].push_back(&cycle);
     for (int node = 0; node < order_.nodes(); ++node) {
-      const Endpoint e = order_.level(node) < 0 ? Endpoint{} : order_.endpoint(node);
+      const bool in_cycle = order_.cycle(node) >= 0;
+      const Endpoint e = order_.level(node) < 0 || in_cycle ? Endpoint{} : order_.endpoint(node);
       const bool output = e.connected() && slot(e).kind == SlotKind::output;
-      if (output && plan_.rate_of[e.instance] < 0) of_level[order_.level(node)].push_back(e);
+      if (output && plan_.rate_of[e.instance] < 0) plain[order_.level(node)].push_back(node);
     }
-    for (const auto& endpoints : of_level) {
-      for (const Endpoint e : endpoints) {
-        moves_[order_.node(e)] = std::ranges::any_of(object(e.instance).reads[e.slot], [&](int read) {
-          return moves({e.instance, read});
-        });
+    for (int level = 0; level < order_.levels(); ++level) {
+      for (const int node : plain[level]) moves_[node] = reads_moving(node);
+      for (const Cycle* cycle : cycles[level]) {
+        for (const Knot& knot : cycle->in_steps) {
+          const bool moving = std::ranges::any_of(knot.members, [&](int node) { return reads_moving(node); });
+          for (const int node : knot.members) moves_[node] = moving;
+        }
       }
     }
+  }
+
+  bool reads_moving(int node) const {
+    const Endpoint e = order_.endpoint(node);
+    return std::ranges::any_of(object(e.instance).reads[e.slot], [&](int read) {
+      return moves({e.instance, read});
+    });
   }
 
   bool moves(Endpoint read) const {
@@ -293,7 +354,9 @@ class ProgramWriter {
   Plan& plan_;
   const Order& order_;
   std::vector<int> place_of_;
-  std::vector<bool> moves_;  // of each node
+  std::map<const Knot*, int> loops_;  // Plan::loops
+  std::vector<int> knot_;             // of each node in a cycle: its place in Cycle::in_steps
+  std::vector<bool> moves_;           // of each node
 };
 
 }  // namespace

@@ -37,15 +37,18 @@ std::vector<bool> behind_rates(const Plan& plan) {
       for (const auto& reads : op.object->rate_reads) mark(op, index, reads);
     });
   }
-  // A block is called after those that it reads, so one way back reaches all.
-  for (const Op& op : plan.sweep.ops | std::views::reverse) {
-    if (op.phase != Phase::outputs || op.rate >= 0) continue;
-    each(op, [&](const int* index) {
-      for (int s = 0; s < op.stride; ++s) {
-        const bool output = op.object->specification->slots[s].kind == SlotKind::output;
-        if (output && slots[index[s]]) mark(op, index, op.object->reads[s]);
-      }
-    });
+  // A block is called after those that it reads, so one way back reaches all; but for loops.
+  for (std::vector<bool> before; before != slots && (before.empty() || !plan.loops.empty());) {
+    before = slots;
+    for (const Op& op : plan.sweep.ops | std::views::reverse) {
+      if (op.phase != Phase::outputs || op.rate >= 0) continue;
+      each(op, [&](const int* index) {
+        for (int s = 0; s < op.stride; ++s) {
+          const bool output = op.object->specification->slots[s].kind == SlotKind::output;
+          if (output && slots[index[s]]) mark(op, index, op.object->reads[s]);
+        }
+      });
+    }
   }
   return slots;
 }

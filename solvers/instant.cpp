@@ -20,6 +20,7 @@ Instant::Instant(const Plan& plan, Workspace<double>& workspace, PlanSystem& sys
       workspace_(workspace),
       system_(system),
       zeros_(zeros),
+      sweep_(plan, workspace, zeros),
       is_staged_(plan.placed.size(), 0),
       states_before_(plan.layout.states()),
       externals_before_(plan.externals.size()),
@@ -72,13 +73,7 @@ bool Instant::run(const Due& due) {
 
 void Instant::sweep(const Due* hits) {
   ++counts_.sweeps;
-  const Frame<double> f = frame(plan_, workspace_);
-  for (const Op& op : plan_.sweep.ops) {
-    if (op.rate >= 0 && (hits == nullptr || hits->rates[op.rate] == 0)) continue;
-    call(op, plan_, f);
-    for (int k = op.settle_first; k < op.settle_first + op.settle_count; ++k)
-      zeros_.settle(plan_.sweep.settle[k]);
-  }
+  sweep_.run(hits == nullptr ? nullptr : &hits->rates);
   if (!outputs_are_finite(plan_, workspace_))
     throw_first_bad({&plan_.sweep}, plan_, workspace_, hits != nullptr);
 }

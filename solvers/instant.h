@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solvers/plan_system.h"
+#include "solvers/sweep.h"
 #include "solvers/zeros.h"
 
 namespace flyball {
@@ -67,6 +68,7 @@ class Instant {
   Workspace<double>& workspace_;
   PlanSystem& system_;
   Zeros& zeros_;
+  Sweep sweep_;
   std::vector<int> staged_first_, staged_;  // slots of states and held values of each instance
   std::vector<Handler> handlers_;
   std::vector<unsigned char> is_staged_;  // of each instance, in this round

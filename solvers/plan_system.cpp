@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/bad_value.h"
 #include "solvers/errors.h"
 
 namespace flyball {
@@ -50,7 +51,7 @@ void PlanSystem::jacobian(double t, const double* x, double* values) {
   lift(workspace_, jets_);
   const Sparsity& pattern = plan_.pattern;
   Jet* states = jets_.values.data() + plan_.layout.first_state;
-  const Frame<Jet> f = frame(plan_, jets_, jet_rates_.data());
+  const auto f = frame(plan_, jets_, jet_rates_.data());
   for (int first = 0; first < plan_.colouring.colours; first += Jet::DIMENSION) {
     const auto direction = [&](int c) { return plan_.colouring.colour[c] - first; };
     const auto seeded = [&](int c) { return direction(c) >= 0 && direction(c) < Jet::DIMENSION; };
@@ -103,79 +104,23 @@ bool outputs_are_finite(const Plan& plan, const Workspace<double>& workspace) {
   return std::none_of(v + layout.first_relation, v + layout.first_alarm, [](double z) { return z != z; });
 }
 
-namespace {
-
-/// "u = 3, gain = 2": what the instance read, for the message.
-std::string readings(const BlockObject& object, const int* index, const Workspace<double>& workspace) {
-  const auto& slots = object.specification->slots;
-  std::string text;
-  for (int s = 0; s < static_cast<int>(slots.size()); ++s) {
-    const SlotSpec& spec = slots[s];
-    const bool read = spec.kind == SlotKind::input || spec.kind == SlotKind::param ||
-                      spec.kind == SlotKind::state || spec.kind == SlotKind::held;
-    if (!read) continue;
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", spec.name, workspace.values[index[s]]);
-  }
-  return text.empty() ? text : fmt::format(" ({})", text);
-}
-
-[[noreturn]] void throw_bad(const std::string& what, double value, double t, const std::string& read) {
-  throw SimulationError(SimulationError::Kind::not_finite, t,
-                        fmt::format("{} is {} at t = {} s{}", what, shown(value), t, read));
-}
-
-/// The number that this call made of a slot.
-double made(const Op& op, int slot, const Plan& plan, const Workspace<double>& workspace,
-            const std::vector<double>& dx) {
-  return op.phase == Phase::rates ? dx[slot - plan.layout.first_state] : workspace.values[slot];
-}
-
-/// The first slot that this call made bad; -1 when all is well.
-int bad_result(const Op& op, const int* index, const Plan& plan, const Workspace<double>& workspace,
-               const std::vector<double>& dx) {
-  // A limit, and so a relation, may be infinite, and an alarm may never come.
-  const bool finite = op.phase == Phase::outputs || op.phase == Phase::rates;
-  for (int s = 0; s < op.stride; ++s) {
-    if (op.object->specification->slots[s].kind != result_of(op.phase)) continue;
-    const double value = made(op, index[s], plan, workspace, dx);
-    if (finite ? !std::isfinite(value) : std::isnan(value)) return s;
-  }
-  return -1;
-}
-
-/// Calls instance `k` of a batch and throws when it made something bad.
-void check_call(const Op& op, int k, const Plan& plan, Workspace<double>& workspace,
-                std::vector<double>& dx) {
-  Op one = op;
-  one.first += k * op.stride;
-  one.count = 1;
-  call(one, plan, frame(plan, workspace, dx.data()));
-  const int* index = plan.index.data() + one.first;
-  const int s = bad_result(one, index, plan, workspace, dx);
-  if (s < 0) return;
-  throw_bad((op.phase == Phase::rates ? "the rate of " : "") + plan.slot_name(index[s]),
-            made(one, index[s], plan, workspace, dx), workspace.values[0],
-            readings(*op.object, index, workspace));
-}
-
-}  // namespace
-
 void throw_bad_next(int slot, double value, const Plan& plan, const Workspace<double>& workspace) {
-  const int instance = plan.owner[slot];
-  throw_bad("the next value of " + plan.slot_name(slot), value, workspace.values[0],
-            readings(*plan.instance(instance).object, plan.index_of(instance), workspace));
+  throw_bad_value("the next value of " + plan.slot_name(slot), value, plan.owner[slot], plan,
+                  workspace.values.data());
 }
 
 void throw_first_bad(std::initializer_list<const Program*> programs, const Plan& plan,
                      Workspace<double>& workspace, bool hits) {
   const double t = workspace.values[0];
   for (int k = plan.layout.first_state; k < plan.layout.first_output; ++k) {
-    if (!std::isfinite(workspace.values[k])) throw_bad(plan.slot_name(k), workspace.values[k], t, "");
+    if (std::isfinite(workspace.values[k])) continue;
+    throw_bad_value(plan.slot_name(k), workspace.values[k], -1, plan, workspace.values.data());
   }
   std::vector<double> dx(plan.layout.states());
+  const Frame<double> f = frame(plan, workspace, dx.data());
   for (const Program* program : programs) {
     for (const Op& op : program->ops) {
-      for (int k = 0; k < op.count && (op.rate < 0 || hits); ++k) check_call(op, k, plan, workspace, dx);
+      for (int k = 0; k < op.count && (op.rate < 0 || hits); ++k) check_call(op, k, plan, f);
     }
   }
   throw SimulationError(SimulationError::Kind::not_finite, t,

@@ -53,6 +53,9 @@ void initialise(const Plan& plan, Workspace<T>& workspace) {
   workspace.values[0] = T(0.0);
   derive(plan, workspace);
   for (const Derivation& d : plan.derivations) require_finite(plan, workspace, d.slot, "parameter");
+  for (const Loop& loop : plan.loops) {
+    for (const Loop::Tear& tear : loop.tears) workspace.values[tear.slot] = T(0.0);  // the first guess
+  }
   for (const Start& start : plan.initial) {
     workspace.values[start.slot] = start.from < 0 ? T(start.value) : workspace.values[start.from];
     require_finite(plan, workspace, start.slot, "the initial value of");
@@ -66,6 +69,7 @@ void initialise(const Plan& plan, Workspace<T>& workspace) {
   for (std::size_t r = 0; r < plan.hit_rates.size(); ++r) workspace.ticks[r] = plan.hit_rates[r].offset_ticks;
   workspace.rates_map = workspace.zeros_map = workspace.logs_map = {};
   workspace.step = {};
+  workspace.loops = {};
   workspace.log_position = 0;
 }
 

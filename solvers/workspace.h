@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "models/plan.h"
+#include "solvers/algebraic_loop.h"
 #include "solvers/stepper.h"
 
 namespace flyball {
@@ -33,13 +34,20 @@ struct Workspace {
   std::vector<std::any> memories;
   Affine rates_map, zeros_map, logs_map;
   StepMemory step;
+  LoopMemory loops;
   std::int64_t log_position = 0;  // number of the next asked log time
+};
+
+/// The arrays of one run, and what its algebraic loops are solved with.
+template <class T>
+struct RunFrame : Frame<T> {
+  LoopMemory* loops = nullptr;
 };
 
 /// The arrays as kernels see them; `rates` may be null where no rates are asked for.
 template <class T>
-Frame<T> frame(const Plan& plan, Workspace<T>& workspace, T* rates = nullptr) {
-  Frame<T> f;
+RunFrame<T> frame(const Plan& plan, Workspace<T>& workspace, T* rates = nullptr) {
+  RunFrame<T> f;
   f.values = workspace.values.data();
   f.rates = rates;
   f.next = workspace.next.data();
@@ -49,6 +57,7 @@ Frame<T> frame(const Plan& plan, Workspace<T>& workspace, T* rates = nullptr) {
   f.objects = workspace.objects.data();
   f.next_objects = workspace.next_objects.data();
   f.memories = workspace.memories.data();
+  f.loops = &workspace.loops;
   return f;
 }
 
@@ -61,8 +70,14 @@ inline void call(const Op& op, const Plan& plan, const Frame<Jet>& f) {
 
 /// Runs a program without hits: minor steps, logs, zeros, schedules.
 template <class T>
-void run(const Program& program, const Plan& plan, const Frame<T>& f) {
-  for (const Op& op : program.ops) call(op, plan, f);
+void run(const Program& program, const Plan& plan, const RunFrame<T>& f) {
+  std::size_t done = 0;
+  for (const LoopSpan& span : program.loops) {
+    for (; done < static_cast<std::size_t>(span.first); ++done) call(program.ops[done], plan, f);
+    solve_loop({plan, program, span}, f, *f.loops);
+    done = span.last;
+  }
+  for (; done < program.ops.size(); ++done) call(program.ops[done], plan, f);
 }
 
 /// Writes parameters and initial values, clears bits, sides and hits. Throws SimulationError (not_finite)

@@ -24,6 +24,7 @@ Zeros::Zeros(const Plan& plan, Workspace<double>& workspace)
   forced_now_.reserve(watched_.size());
   forced_.assign(plan.layout.size - plan.layout.first_relation, 0);
   forced_value_.assign(forced_.size(), 0.0);
+  forced_level_ = forced_value_;
   scale_.assign(watched_.size(), 0.0);
 }
 
@@ -160,15 +161,25 @@ void Zeros::force() {
     const int at = watched_[k].slot - plan_.layout.first_relation;
     forced_[at] = 1;
     forced_value_[at] = value(watched_[k].slot);
+    forced_level_[at] = plan_.loops.empty() ? 0.0 : loop_tolerance * std::max(1.0, scale_[k]);
     forced_now_.push_back(k);
   }
 }
 
-void Zeros::settle(int slot) {
+/// Whether what was forced has the value that it had then. A loop is solved again, with the forced bit: it
+/// comes back to the same value within its tolerance only.
+bool Zeros::is_held(int slot) const {
+  const int at = slot - plan_.layout.first_relation;
+  return forced_[at] != 0 && std::fabs(value(slot) - forced_value_[at]) <= forced_level_[at];
+}
+
+bool Zeros::settle(int slot) {
   const int at = slot - plan_.layout.first_relation;
   const double z = value(slot);
-  if (forced_[at] != 0 && z == forced_value_[at]) return;
-  if (workspace_.bits[at] != 0 ? z < 0.0 : z > 0.0) workspace_.bits[at] = z > 0.0 ? 1 : 0;
+  const bool leaves = workspace_.bits[at] != 0 ? z < 0.0 : z > 0.0;
+  if (!leaves || is_held(slot)) return false;
+  workspace_.bits[at] = z > 0.0 ? 1 : 0;
+  return true;
 }
 
 const std::vector<int>& Zeros::fired_crossings() {
@@ -177,8 +188,7 @@ const std::vector<int>& Zeros::fired_crossings() {
   for (std::size_t k = first_crossing_; k < watched_.size(); ++k) {
     const Watched& w = watched_[k];
     const double z = value(w.slot);
-    const int at = w.slot - plan_.layout.first_relation;
-    if (z == 0.0 || (forced_[at] != 0 && z == forced_value_[at])) continue;
+    if (z == 0.0 || is_held(w.slot)) continue;
     signed char& side = workspace_.sides[w.number];
     const bool edge = side * z < 0.0;
     side = z > 0.0 ? 1 : -1;

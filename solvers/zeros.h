@@ -46,8 +46,8 @@ class Zeros {
   /// Until the instant ends they keep it, unless their value moves: rounding must not take a located root
   /// back.
   void force();
-  /// Sets the bit of a relation by its value; zero changes nothing.
-  void settle(int slot);
+  /// Sets the bit of a relation by its value; zero changes nothing. Returns whether it changed.
+  bool settle(int slot);
   /// Evaluates crossings after a sweep; those that changed side in their direction, by number.
   const std::vector<int>& fired_crossings();
   /// Whether a crossing was forced in this instant.
@@ -86,6 +86,7 @@ class Zeros {
   double value(int slot) const { return workspace_.values[slot]; }
   int side(const Watched& w) const;
   bool wanted(const Watched& w, double z) const;
+  bool is_held(int slot) const;
   void collect();
   void evaluate(bool after_rates);
   void evaluate_at(double t, Stepper<double>& stepper);
@@ -106,7 +107,7 @@ class Zeros {
   std::vector<int> changed_;
   std::vector<int> fired_;
   std::vector<unsigned char> forced_;  // of each slot from first_relation on
-  std::vector<double> forced_value_;
+  std::vector<double> forced_value_, forced_level_;
   std::vector<double> scale_;    // of each watched: its size at the end of the step in which it changed
   std::vector<int> forced_now_;  // watched that this instant forced
 };

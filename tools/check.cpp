@@ -20,6 +20,15 @@ std::string counts(const Plan& plan) {
                      counted(plan.crossing_records.size() + plan.located_relations.size(), "crossing"));
 }
 
+/// What a user may want to know of a diagram that is in order.
+void add_notes(ModelFile& model) {
+  for (const Chain& chain : model.plan->chains) {
+    model.diagnostics.push_back({Diagnostic::Severity::note, model.name,
+                                 model.plan->instance(chain.begins).at,
+                                 "algebraic loop, solved wherever it is evaluated: " + chain.text});
+  }
+}
+
 }  // namespace
 
 int check_command(const CheckOptions& options) {
@@ -36,7 +45,8 @@ int check_command(const CheckOptions& options) {
       ++errors;
       continue;
     }
-    const ModelFile& model = models.back();
+    ModelFile& model = models.back();
+    if (model.plan) add_notes(model);
     complain(listing(model));
     errors += static_cast<std::size_t>(model.errors);
     if (model.plan) lines += fmt::format("{}: ok: {}\n", name, counts(*model.plan));

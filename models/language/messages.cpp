@@ -261,6 +261,14 @@ std::string not_connected(Text input, Text unit, Text doc) {
 std::string nothing_to_log(Text block) { return format("{} has no output that is a number", block); }
 std::string logged_object(Text port) { return format("{} is an object; only numbers are logged", port); }
 
+std::string not_one_number(Text port) {
+  return format("{} is not one number: name one of its elements", port);
+}
+
+std::string unknown_choice(Text key, Text name, const Names& choices) {
+  return format("unknown {} \"{}\"{}", key, name, suggestion(name, choices));
+}
+
 std::string unknown_method(Text name, const Names& known) {
   return format("unknown method \"{}\"{}", name, suggestion(name, known));
 }

@@ -106,5 +106,7 @@ std::string logged_object(Text port);
 // Simulation.
 std::string unknown_method(Text name, const Names& known);
 std::string discrete_with_states(const Names& states);
+std::string not_one_number(Text port);
+std::string unknown_choice(Text key, Text name, const Names& choices);
 
 }  // namespace flyball::message

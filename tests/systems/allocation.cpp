@@ -43,3 +43,37 @@ solver = { method = ")toml" + method +
     CHECK(done().alarms - before.alarms > 30);
   }
 }
+
+TEST_CASE("No allocation where loops are solved, after the first solution") {
+  for (const std::string method : {"dp5", "bdf"}) {
+    INFO(method);
+    const Model model = read_model(R"toml(
+flyball = 1
+[blocks]
+drive = { type = "SineWave", frequency = 7.0 }
+sum = { type = "Sum", signs = "+--" }
+curve = { type = "Expression", inputs = ["u"], formula = "u + 0.3*u^3" }
+limit = { type = "Saturation", upper = 0.15, lower = -0.15 }
+plant = { type = "TransferFcn", numerator = [1.0], denominator = [1.0, 1.0] }
+sample = { type = "ZeroOrderHold", sample_time = "1/10 s" }
+half = { type = "Gain", gain = 0.5 }
+[diagram]
+wires = ["drive -> sum.u1", "sum -> curve -> limit -> sum.u2", "limit -> plant -> half", "sum -> sample -> sum.u3"]
+log = ["plant", "limit"]
+[simulation]
+stop = 10
+solver = { method = ")toml" + method +
+                                   "\" }\n");
+    REQUIRE(model.plan->loops.size() >= 2);
+    Simulator simulator(model.plan, model.settings, {true, EventRows::none});
+    const auto done = [&] { return simulator.statistics(); };
+    while ((done().hits < 20 || done().events < 10) && simulator.advance()) {
+    }
+    const long allocated = allocations();
+    while (simulator.advance()) {
+    }
+    const long made = allocations() - allocated;
+    CHECK(made == 0);
+    CHECK(done().events > 20);
+  }
+}

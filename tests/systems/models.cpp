@@ -260,3 +260,21 @@ TEST_CASE("Arc error loop: the published table of the nonlinear loop") {
     CHECK(std::fabs(run.logged("gamma", 1.0) - row.gamma_one) < gamma);
   }
 }
+
+TEST_CASE("Diode rectifier: the current of the loop is that of Lambert's W") {
+  Run run(shipped("classic/diode_rectifier"));
+  run.finish();
+  const std::vector<double> t = run.times(), u = run.column("u"), i = run.column("i");
+  double worst = 0.0, greatest = 0.0;
+  for (std::size_t k = 0; k < t.size(); ++k) {
+    const double x = 10.0 * std::sin(314.0 * t[k]) - u[k];
+    // W of exp(y), by Newton's method on w + ln w = y from above its root.
+    const double y = std::log(1e-9 * 5.0 / 0.05) + (x + 1e-9 * 5.0) / 0.05;
+    double w = y > 1.0 ? y : std::exp(y);
+    for (int round = 0; round < 60; ++round) w *= (1.0 + y - std::log(w)) / (1.0 + w);
+    worst = std::max(worst, std::fabs(i[k] - (0.05 / 5.0 * w - 1e-9)));
+    greatest = std::max(greatest, i[k]);
+  }
+  CHECK(worst < 1e-12);   // A; the exponents, up to 20 and 200, carry some hundred roundings
+  CHECK(greatest > 0.2);  // the first pulse fills the empty capacitor
+}

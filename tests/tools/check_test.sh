@@ -18,6 +18,22 @@ says err "missing.toml: cannot be read"
 says err "1 error"
 says out "arc_error_loop.toml: ok"
 
+cat >loop.toml <<'TOML'
+flyball = 1
+[blocks]
+one = { type = "Constant" }
+x = { type = "Sum" }
+[diagram]
+wires = ["one -> x.u1", "x -> x.u2"]
+TOML
+expect 0 check loop.toml
+says err "loop.toml:4:1: note: algebraic loop, solved wherever it is evaluated: x.y -> x.u2 -> x.y"
+says out "loop.toml: ok"
+expect 0 check loop.toml --json
+says out '"severity": "note"'
+expect 4 run loop.toml
+says err "loop.toml: error: algebraic loop at t = 0 s: no solution, x.y needs to differ from itself: x.y -> x.u2 -> x.y; an Integrator"
+
 expect 0 check --json "$arc"
 says out '"ok": true'
 says out '"states": 2'
