@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "solvers/errors.h"
 
@@ -24,8 +23,12 @@ void JetSystem::rates(Jet t, const Jet* x, Jet* dx) {
   }
 }
 
-void JetSystem::jacobian(double, const double*, double*) {
-  throw std::logic_error("the Jacobian of a system of Jets");
+void JetSystem::jacobian(double t, const double* x, double* values) {
+  if (numbers_ == nullptr) numbers_ = std::make_unique<Numbers>(plan_);
+  std::ranges::transform(workspace_.values, numbers_->workspace.values.begin(),
+                         [](const Jet& y) { return y.a; });
+  numbers_->workspace.bits = workspace_.bits;
+  numbers_->system.jacobian(t, x, values);
 }
 
 void JetSystem::require_finite(const Jet& x, double t, const std::string& name) const {

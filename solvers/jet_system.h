@@ -1,9 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "solvers/workspace.h"
+#include "solvers/plan_system.h"
 
 namespace flyball {
 
@@ -18,7 +19,7 @@ class JetSystem final : public System<Jet> {
   void rates(Jet t, const Jet* x, Jet* dx) override;
   std::string state_name(int i) const override { return plan_.slot_name(plan_.layout.first_state + i); }
   const Sparsity& pattern() const override { return plan_.pattern; }
-  /// Explicit methods need none: throws std::logic_error.
+  /// On numbers, of which this system keeps a workspace of its own from the first call on.
   void jacobian(double t, const double* x, double* values) override;
 
   /// Writes time and states into the workspace.
@@ -33,6 +34,12 @@ class JetSystem final : public System<Jet> {
   const Plan& plan_;
   Workspace<Jet>& workspace_;
   const std::vector<std::string>& directions_;
+  struct Numbers {
+    explicit Numbers(const Plan& plan) : workspace(plan), system(plan, workspace) {}
+    Workspace<double> workspace;
+    PlanSystem system;
+  };
+  std::unique_ptr<Numbers> numbers_;
 };
 
 }  // namespace flyball

@@ -79,7 +79,8 @@ Sensitivities::Run::Run(std::shared_ptr<const Plan> plan, const SimulationSettin
 
   settings_.max_step = settings.max_step.value_or(settings.stop / 50.0);
   settings_.stop = request_.times.back();
-  settings_.method = "dp5";
+  const bool stiff = settings.method == "bdf";
+  settings_.method = stiff ? "bdf" : "dp5";
   settings_.atol = options.atol.value_or(settings.atol / settings.rtol * options.rtol);
   settings_.rtol = options.rtol;
   StepperOptions steps;
@@ -90,7 +91,7 @@ Sensitivities::Run::Run(std::shared_ptr<const Plan> plan, const SimulationSettin
   const int passes =
       std::max(1, (table_.parameters + SensitivityPass::most_seeds - 1) / SensitivityPass::most_seeds);
   for (int k = 0; k < passes; ++k)
-    passes_.push_back(std::make_unique<SensitivityPass>(*plan_, steps, table_));
+    passes_.push_back(std::make_unique<SensitivityPass>(*plan_, steps, stiff, table_));
 }
 
 void Sensitivities::Run::run(std::span<const double> parameters) {

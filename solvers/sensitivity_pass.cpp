@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "solvers/cvode_jets.h"
 #include "solvers/dormand_prince.h"
 
 namespace flyball {
@@ -20,14 +21,20 @@ constexpr double same_derivative = 1e-6;
 
 constexpr int time_direction = SensitivityPass::most_seeds;
 
+std::unique_ptr<Stepper<Jet>> make_stepper(JetSystem& system, const StepperOptions& options, bool stiff) {
+  if (stiff && system.size() > 0) return make_bdf_on_jets(system, options);
+  return std::make_unique<DormandPrince<Jet>>(system, options);
+}
+
 }  // namespace
 
-SensitivityPass::SensitivityPass(const Plan& plan, const StepperOptions& options, SensitivityTable& table)
+SensitivityPass::SensitivityPass(const Plan& plan, const StepperOptions& options, bool stiff,
+                                 SensitivityTable& table)
     : plan_(plan),
       table_(table),
       jets_(plan),
       system_(plan, jets_, names_),
-      stepper_(std::make_unique<DormandPrince<Jet>>(system_, options)),
+      stepper_(make_stepper(system_, options, stiff)),
       handlers_(plan, jets_),
       flow_(plan.layout.states()) {}
 

@@ -39,7 +39,8 @@ class SensitivityPass {
  public:
   static constexpr int most_seeds = 3;  // the fourth direction of a Jet is time
 
-  SensitivityPass(const Plan& plan, const StepperOptions& options, SensitivityTable& table);
+  /// Steps by BDF when `stiff`, else by Dormand-Prince.
+  SensitivityPass(const Plan& plan, const StepperOptions& options, bool stiff, SensitivityTable& table);
   SensitivityPass(const SensitivityPass&) = delete;
   SensitivityPass& operator=(const SensitivityPass&) = delete;
 

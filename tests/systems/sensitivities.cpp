@@ -26,29 +26,26 @@ Sensitivities sensitivities(const Model& model, std::vector<std::string> paramet
                        {std::move(parameters), std::move(signals), std::move(times)});
 }
 
-/// Runs at the model's values and compares with `closed(t, parameters)`, a closed form on Jets, of the one
-/// signal. Returns the largest error of a value or derivative.
+/// Runs at the model's values and compares the one signal with `closed(t, parameters)`, a closed form on
+/// Jets.
 template <class Closed>
-double worst_error(const Model& model, const std::vector<std::string>& parameters, const std::string& signal,
-                   const std::vector<double>& times, Closed&& closed) {
-  Sensitivities run = sensitivities(model, parameters, {signal}, times);
+void check_closed_form(const Model& model, const SensitivityRequest& request, Closed&& closed,
+                       double tolerance = promised) {
+  Sensitivities run(model.plan, model.settings, request);
   run.run(run.model_values());
   CHECK(run.warnings().empty());
-  double worst = 0.0;
-  const int count = static_cast<int>(parameters.size());
+  const int count = static_cast<int>(request.parameters.size());
   for (int p = 0; p < count; ++p) {
-    std::vector<Jet> on_jets;
-    for (int q = 0; q < count; ++q) on_jets.emplace_back(run.model_values()[q]);
-    on_jets[p].v[0] = 1.0;
-    for (int k = 0; k < static_cast<int>(times.size()); ++k) {
-      const Jet wanted = closed(times[k], on_jets);
-      INFO(parameters[p] << " at t = " << times[k]);
-      CHECK(std::fabs(run.value(k, 0) - wanted.a) < promised);
-      CHECK(std::fabs(run.derivative(k, 0, p) - wanted.v[0]) < promised);
-      worst = std::max(worst, std::fabs(run.derivative(k, 0, p) - wanted.v[0]));
+    std::vector<Jet> parameters;
+    for (int q = 0; q < count; ++q) parameters.emplace_back(run.model_values()[q]);
+    parameters[p].v[0] = 1.0;
+    for (int k = 0; k < static_cast<int>(request.times.size()); ++k) {
+      const Jet wanted = closed(request.times[k], parameters);
+      INFO(request.parameters[p] << " at t = " << request.times[k]);
+      CHECK(std::fabs(run.value(k, 0) - wanted.a) < tolerance);
+      CHECK(std::fabs(run.derivative(k, 0, p) - wanted.v[0]) < tolerance);
     }
   }
-  return worst;
 }
 
 using Jets = std::vector<Jet>;
@@ -71,9 +68,9 @@ log = ["x", "loss"]
 stop = 5
 )toml");
   const auto x = [](double t, const Jets& p) { return 3.0 * p[1] * exp(-p[0] * p[0] * t); };
-  worst_error(model, {"k", "x0"}, "x", grid(5.0, 50), x);
-  worst_error(model, {"k", "x0"}, "loss", grid(5.0, 50),
-              [&](double t, const Jets& p) { return -p[0] * p[0] * x(t, p); });
+  check_closed_form(model, {{"k", "x0"}, {"x"}, grid(5.0, 50)}, x);
+  check_closed_form(model, {{"k", "x0"}, {"loss"}, grid(5.0, 50)},
+                    [&](double t, const Jets& p) { return -p[0] * p[0] * x(t, p); });
 }
 
 TEST_CASE("A parameter of 0 on a signal at rest: the derivative alone limits the steps") {
@@ -90,8 +87,8 @@ log = ["x"]
 [simulation]
 stop = 100
 )toml");
-  worst_error(model, {"b.value"}, "x", grid(100.0, 1000),
-              [](double t, const Jets& p) { return p[0] * (1.0 - std::exp(-40.0 * t)); });
+  check_closed_form(model, {{"b.value"}, {"x"}, grid(100.0, 1000)},
+                    [](double t, const Jets& p) { return p[0] * (1.0 - std::exp(-40.0 * t)); });
 }
 
 TEST_CASE("Sensitivities of a ball through its bounces") {
@@ -120,12 +117,12 @@ stop = 3.5
   };
   const std::vector<std::string> names = {"ball.gravity", "ball.restitution", "ball.initial_height"};
   // The grid keeps away from bounces: at one the velocity has no derivative.
-  worst_error(model, names, "ball.height", grid(3.5, 70), [&](double t, const Jets& p) {
+  check_closed_form(model, {names, {"ball.height"}, grid(3.5, 70)}, [&](double t, const Jets& p) {
     const auto now = flight(t, p);
     const Jet s = t - now.begin;
     return now.height + now.speed * s - p[0] * s * s / 2.0;
   });
-  worst_error(model, names, "ball.velocity", grid(3.5, 70), [&](double t, const Jets& p) {
+  check_closed_form(model, {names, {"ball.velocity"}, grid(3.5, 70)}, [&](double t, const Jets& p) {
     const auto now = flight(t, p);
     return now.speed - p[0] * (t - now.begin);
   });
@@ -145,18 +142,57 @@ log = ["x"]
 stop = 4
 )toml");
   // x' = u - x from a switch on. More than three parameters: two passes.
-  worst_error(model, {"relay.switch_on", "relay.switch_off", "relay.on", "relay.off", "x.initial"}, "x",
-              grid(4.0, 37), [](double t, const Jets& p) {
-                Jet begin(0.0), x = p[4], u = p[3];
-                for (bool on = false;; on = !on) {
-                  const Jet& level = on ? p[1] : p[0];
-                  const Jet next = begin + log((x - u) / (level - u));
-                  if (next.a > t) return u + (x - u) * exp(begin - t);
-                  begin = next;
-                  x = level;
-                  u = on ? p[3] : p[2];
-                }
-              });
+  check_closed_form(
+      model,
+      {{"relay.switch_on", "relay.switch_off", "relay.on", "relay.off", "x.initial"}, {"x"}, grid(4.0, 37)},
+      [](double t, const Jets& p) {
+        Jet begin(0.0), x = p[4], u = p[3];
+        for (bool on = false;; on = !on) {
+          const Jet& level = on ? p[1] : p[0];
+          const Jet next = begin + log((x - u) / (level - u));
+          if (next.a > t) return u + (x - u) * exp(begin - t);
+          begin = next;
+          x = level;
+          u = on ? p[3] : p[2];
+        }
+      });
+}
+
+TEST_CASE("Sensitivities of a stiff diagram, by BDF, through the switches of a relay") {
+  // w follows x within 1e-5 s, which keeps a Dormand-Prince step below 4e-5 s.
+  const Model model = read_model(R"toml(
+flyball = 1
+[blocks]
+relay = { type = "Relay", switch_on = 0.6, switch_off = 0.4, on = 0.1, off = 1.0 }
+loss = { type = "Sum", signs = "+-" }
+x = { type = "Integrator" }
+lag = { type = "Sum", signs = "+-" }
+fast = { type = "Gain", gain = 1e5 }
+w = { type = "Integrator" }
+[diagram]
+wires = ["relay -> loss.u1", "x -> loss.u2", "loss -> x -> relay", "x -> lag.u1", "w -> lag.u2", "lag -> fast -> w"]
+log = ["w"]
+[simulation]
+stop = 4
+solver = { method = "bdf" }
+)toml");
+  // x = u + c exp(-s) in the time s since a switch; w the same with L/(L - 1) c, but for 1e-4 s after it.
+  // BDF makes some 1000 steps of 1e-10 each here.
+  check_closed_form(
+      model, {{"relay.switch_on", "relay.switch_off", "fast.gain", "x.initial"}, {"w"}, grid(4.0, 37)},
+      [](double t, const Jets& p) {
+        if (t == 0.0) return Jet(0.0);
+        Jet begin(0.0), x = p[3], u(1.0);
+        for (bool on = false;; on = !on) {
+          const Jet& level = on ? p[1] : p[0];
+          const Jet next = begin + log((x - u) / (level - u));
+          if (next.a > t) return u + p[2] / (p[2] - 1.0) * (x - u) * exp(begin - t);
+          begin = next;
+          x = level;
+          u = Jet(on ? 1.0 : 0.1);
+        }
+      },
+      1e-7);
 }
 
 TEST_CASE("Sensitivities by the time of a step and the edges of pulses") {
@@ -172,8 +208,8 @@ log = ["x"]
 [simulation]
 stop = 4
 )toml");
-  worst_error(
-      step, {"step.time", "step.before", "step.after"}, "x", grid(4.0, 33), [](double t, const Jets& p) {
+  check_closed_form(
+      step, {{"step.time", "step.before", "step.after"}, {"x"}, grid(4.0, 33)}, [](double t, const Jets& p) {
         const auto at = [&](const Jet& s, const Jet& x, const Jet& u) { return u + (x - u) * exp(-s); };
         if (t < p[0].a) return at(Jet(t), Jet(1.0), p[1]);
         return at(t - p[0], at(p[0], Jet(1.0), p[1]), p[2]);
@@ -190,15 +226,16 @@ log = ["x"]
 [simulation]
 stop = 3
 )toml");
-  worst_error(pulses, {"pulse.amplitude", "pulse.period", "pulse.duty", "pulse.delay"}, "x", grid(2.9, 31),
-              [](double t, const Jets& p) {
-                Jet sum(0.0);
-                for (double k = 0.0; p[3].a + k * p[1].a < t; ++k) {
-                  const Jet begin = p[3] + k * p[1], width = p[2] * p[1];
-                  sum += p[0] * (begin.a + width.a < t ? width : t - begin);
-                }
-                return sum;
-              });
+  check_closed_form(pulses,
+                    {{"pulse.amplitude", "pulse.period", "pulse.duty", "pulse.delay"}, {"x"}, grid(2.9, 31)},
+                    [](double t, const Jets& p) {
+                      Jet sum(0.0);
+                      for (double k = 0.0; p[3].a + k * p[1].a < t; ++k) {
+                        const Jet begin = p[3] + k * p[1], width = p[2] * p[1];
+                        sum += p[0] * (begin.a + width.a < t ? width : t - begin);
+                      }
+                      return sum;
+                    });
 }
 
 TEST_CASE("Sensitivities of a sampled PI controller: ticks do not move") {
@@ -225,9 +262,10 @@ stop = 2
     }
   };
   const std::vector<std::string> names = {"control.Kp", "control.Ki", "wanted.value", "x.initial"};
-  worst_error(model, names, "x", grid(2.0, 64), [&](double t, const Jets& p) { return loop(t, p, false); });
-  worst_error(model, names, "control", grid(2.0, 64),
-              [&](double t, const Jets& p) { return loop(t, p, true); });
+  check_closed_form(model, {names, {"x"}, grid(2.0, 64)},
+                    [&](double t, const Jets& p) { return loop(t, p, false); });
+  check_closed_form(model, {names, {"control"}, grid(2.0, 64)},
+                    [&](double t, const Jets& p) { return loop(t, p, true); });
 }
 
 TEST_CASE("Sensitivities through a saturation, whose limit the signal leaves on the way") {
@@ -245,11 +283,12 @@ log = ["x"]
 [simulation]
 stop = 3
 )toml");
-  worst_error(model, {"k.gain", "limit.upper", "one.value"}, "x", grid(3.0, 40), [](double t, const Jets& p) {
-    const Jet meets = p[2] - p[1] / p[0], when = meets / p[1];
-    if (t < when.a) return p[1] * t;
-    return p[2] - (p[2] - meets) * exp(-p[0] * (t - when));
-  });
+  check_closed_form(model, {{"k.gain", "limit.upper", "one.value"}, {"x"}, grid(3.0, 40)},
+                    [](double t, const Jets& p) {
+                      const Jet meets = p[2] - p[1] / p[0], when = meets / p[1];
+                      if (t < when.a) return p[1] * t;
+                      return p[2] - (p[2] - meets) * exp(-p[0] * (t - when));
+                    });
 }
 
 TEST_CASE("Balls that bounce at one time are parted by their parameters, and told of") {
@@ -340,6 +379,16 @@ stop = 2
 
 namespace {
 
+/// On double alone: what it does is not differentiated.
+struct Twice : Block {
+  static constexpr auto summary = "Twice its input, at its hits.";
+  static constexpr bool differentiable = false;
+  SampleTime ts = sample_time();
+  Input u = input("u", "any", "signal");
+  Output y = output("y", "any", "twice the signal");
+  void outputs(auto& v) const { v[y] = 2.0 * v[u]; }
+};
+
 const char* const thermostat = R"toml(
 flyball = 1
 [parameters]
@@ -377,6 +426,30 @@ TEST_CASE("What cannot be differentiated is refused with its reason") {
   CHECK(refusal("d", "x", {1.0, 3.5}) == "times must be between 0 and the stop time 3 s");
   CHECK(refusal("d", "x", {}) == "times must be between 0 and the stop time 3 s");
   CHECK(refusal("d", "x", {1.0}) == "accepted");
+}
+
+TEST_CASE("A block on double alone passes no derivative on, and that is told") {
+  DiagramBuilder diagram;
+  diagram.add("Constant", "c", {{"value", 3.0}});
+  diagram.add("Constant", "d", {{"value", 1.0}});
+  diagram.add<Twice>("twice", {{"sample_time", *Rational::fraction(1, 2)}});
+  diagram.add("Sum", "sum", {{"signs", std::string("+++")}});
+  diagram.wire("c.y", "twice.u");
+  diagram.wire("twice.y", "sum.u1");
+  diagram.wire("c.y", "sum.u2");
+  diagram.wire("d.y", "sum.u3");
+  diagram.log("sum.y");
+  diagram.simulation.stop = 1.0;
+  Sensitivities run = sensitivities(diagram.build(), {"c.value", "d.value"}, {"sum.y"}, {0.75});
+  run.run(run.model_values());
+  CHECK(run.value(0, 0) == 10.0);
+  CHECK(run.derivative(0, 0, 0) == 1.0);
+  CHECK(run.derivative(0, 0, 1) == 1.0);
+  REQUIRE(run.warnings().size() == 1);
+  CHECK(run.warnings()[0].kind == SensitivityWarning::Kind::opaque);
+  CHECK(
+      run.warnings()[0].message ==
+      "twice passes no derivative on at t = 0 s: the derivative by c.value leaves out what goes through it");
 }
 
 TEST_CASE("A derivative that is not finite stops the run and is named") {
