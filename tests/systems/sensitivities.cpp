@@ -4,6 +4,7 @@
 #include <limits>
 #include <thread>
 
+#include "tests/systems/blocks.h"
 #include "tests/systems/harness.h"
 
 using namespace flyball;
@@ -416,6 +417,42 @@ std::string refusal(const std::string& parameter, const std::string& signal, std
 }
 
 }  // namespace
+
+TEST_CASE("What a handler takes over at an event moves with the event") {
+  // x = c t - 1 passes 0 at t = 1/c. There `when` takes the time. Later `same` takes another 4 for its own 4,
+  // which changes no number.
+  DiagramBuilder diagram;
+  diagram.add("Constant", "c", {{"value", 2.0}});
+  diagram.add("Integrator", "x", {{"initial", -1.0}});
+  diagram.add("Integrator", "later", {{"initial", -1.2}});
+  diagram.add("Clock", "clock");
+  diagram.add("Constant", "four", {{"value", 4.0}});
+  diagram.add<Exchange>("when");
+  diagram.add<Exchange>("same", {{"initial", 4.0}});
+  diagram.add("Gain", "k", {{"gain", 3.0}});
+  diagram.add("Gain", "k_same", {{"gain", 3.0}});
+  diagram.wire("c.y", "x.u");
+  diagram.wire("c.y", "later.u");
+  diagram.wire("x.y", "when.trigger");
+  diagram.wire("later.y", "same.trigger");
+  diagram.wire("clock.y", "when.other");
+  diagram.wire("four.y", "same.other");
+  diagram.wire("when.y", "k.u");
+  diagram.wire("same.y", "k_same.u");
+  diagram.log("k.y");
+  diagram.log("k_same.y");
+  diagram.simulation.stop = 1.0;
+  Sensitivities run = sensitivities(diagram.build(), {"c.value", "four.value", "same.initial"},
+                                    {"k.y", "k_same.y"}, {0.25, 0.75});
+  run.run(run.model_values());
+  CHECK(run.warnings().empty());
+  CHECK(std::fabs(run.value(1, 0) - 1.5) < promised);
+  CHECK(std::fabs(run.derivative(1, 0, 0) + 0.75) < promised);
+  CHECK(run.derivative(0, 1, 2) == 3.0);
+  CHECK(run.derivative(0, 1, 1) == 0.0);
+  CHECK(run.derivative(1, 1, 2) == 0.0);
+  CHECK(run.derivative(1, 1, 1) == 3.0);
+}
 
 TEST_CASE("What cannot be differentiated is refused with its reason") {
   CHECK(refusal("e", "x", {1.0}) == "there is no parameter e");
