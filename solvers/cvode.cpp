@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "solvers/newton_matrix.h"
 #include "solvers/reach.h"
 #include "solvers/step_failure.h"
 #include "solvers/sundials.h"
@@ -14,10 +15,6 @@ namespace flyball {
 namespace {
 
 using sundials::check;
-
-/// From this number of states on the Jacobian is sparse. Measured for tridiagonal ones, microseconds a step,
-/// dense and sparse: 4.2 and 5.8 at 20 states, 7.0 and 5.9 at 30, 92 and 14 at 120.
-constexpr int sparse_from = 30;
 
 class CvodeStepper final : public Stepper<double> {
  public:
@@ -32,13 +29,9 @@ class CvodeStepper final : public Stepper<double> {
 
  private:
   void use_fixed_point();
-  void use_newton();
 
   static int rates(double t, N_Vector x, N_Vector dx, void* self);
-  static int dense_jacobian(double t, N_Vector x, N_Vector, SUNMatrix j, void* self, N_Vector, N_Vector,
-                            N_Vector);
-  static int sparse_jacobian(double t, N_Vector x, N_Vector, SUNMatrix j, void* self, N_Vector, N_Vector,
-                             N_Vector);
+  static int jacobian(double t, N_Vector x, N_Vector, SUNMatrix j, void* self, N_Vector, N_Vector, N_Vector);
   static void keep_message(int code, const char*, const char*, char* message, void* self);
   template <class Evaluate>
   int guarded(Evaluate&& evaluate);
@@ -60,11 +53,9 @@ class CvodeStepper final : public Stepper<double> {
   sundials::Vector state_;  // at reached_
   sundials::Vector scratch_;
   sundials::Vector borrowed_;  // a caller's array during a call
-  sundials::Matrix matrix_;
-  sundials::LinearSolver linear_;
+  sundials::NewtonMatrix newton_;
   sundials::NonlinearSolver fixed_point_;
-  sundials::Cvode cvode_;        // uses the objects above, so it goes first
-  std::vector<double> entries_;  // of the Jacobian, in the order of its pattern
+  sundials::Cvode cvode_;  // uses the objects above, so it goes first
   std::exception_ptr thrown_;
   std::string message_;  // SUNDIALS' own words about its last failure
 
@@ -102,34 +93,17 @@ CvodeStepper::CvodeStepper(int method, System<double>& system, const StepperOpti
   // Steps lost in rounding are an error here, so no warnings are wanted.
   check(CVodeSetMaxHnilWarns(cvode, -1), "CVodeSetMaxHnilWarns", cvode);
   if (size_ == 0) return;
-  method == CV_ADAMS ? use_fixed_point() : use_newton();
+  if (method == CV_ADAMS) {
+    use_fixed_point();
+  } else {
+    newton_.attach(cvode, state_.get(), system.pattern(), jacobian);
+  }
 }
 
 void CvodeStepper::use_fixed_point() {
   fixed_point_ =
       sundials::own<sundials::NonlinearSolver>(SUNNonlinSol_FixedPoint(state_.get(), 0, context_.get()));
   check(CVodeSetNonlinearSolver(cvode_.get(), fixed_point_.get()), "CVodeSetNonlinearSolver", cvode_.get());
-}
-
-void CvodeStepper::use_newton() {
-  const bool sparse = size_ >= sparse_from;
-  const auto entries = static_cast<sunindextype>(system_.pattern().row.size());
-  if (sparse) {
-    matrix_ =
-        sundials::own<sundials::Matrix>(SUNSparseMatrix(size_, size_, entries, CSC_MAT, context_.get()));
-    linear_ =
-        sundials::own<sundials::LinearSolver>(SUNLinSol_KLU(state_.get(), matrix_.get(), context_.get()));
-    // The pattern never changes: without this, each restart would order the matrix again.
-    linear_->ops->initialize = nullptr;
-  } else {
-    matrix_ = sundials::own<sundials::Matrix>(SUNDenseMatrix(size_, size_, context_.get()));
-    linear_ =
-        sundials::own<sundials::LinearSolver>(SUNLinSol_Dense(state_.get(), matrix_.get(), context_.get()));
-    entries_.resize(static_cast<std::size_t>(entries));
-  }
-  void* cvode = cvode_.get();
-  check(CVodeSetLinearSolver(cvode, linear_.get(), matrix_.get()), "CVodeSetLinearSolver", cvode);
-  check(CVodeSetJacFn(cvode, sparse ? sparse_jacobian : dense_jacobian), "CVodeSetJacFn", cvode);
 }
 
 /// No exception may cross SUNDIALS' C functions: it waits in thrown_ until `step` has control again.
@@ -151,30 +125,13 @@ int CvodeStepper::rates(double t, N_Vector x, N_Vector dx, void* self) {
   return stepper.guarded([&] { stepper.system_.rates(t, N_VGetArrayPointer(x), N_VGetArrayPointer(dx)); });
 }
 
-int CvodeStepper::dense_jacobian(double t, N_Vector x, N_Vector, SUNMatrix j, void* self, N_Vector, N_Vector,
-                                 N_Vector) {
+int CvodeStepper::jacobian(double t, N_Vector x, N_Vector, SUNMatrix j, void* self, N_Vector, N_Vector,
+                           N_Vector) {
   auto& stepper = *static_cast<CvodeStepper*>(self);
   ++stepper.statistics_.jacobians;
   return stepper.guarded([&] {
-    const Sparsity& pattern = stepper.system_.pattern();
-    stepper.system_.jacobian(t, N_VGetArrayPointer(x), stepper.entries_.data());
-    for (int c = 0; c < pattern.size; ++c) {
-      double* column = SM_COLUMN_D(j, c);
-      for (int k = pattern.start[c]; k < pattern.start[c + 1]; ++k)
-        column[pattern.row[k]] = stepper.entries_[k];
-    }
-  });
-}
-
-int CvodeStepper::sparse_jacobian(double t, N_Vector x, N_Vector, SUNMatrix j, void* self, N_Vector, N_Vector,
-                                  N_Vector) {
-  auto& stepper = *static_cast<CvodeStepper*>(self);
-  ++stepper.statistics_.jacobians;
-  return stepper.guarded([&] {
-    const Sparsity& pattern = stepper.system_.pattern();
-    std::copy(pattern.start.begin(), pattern.start.end(), SM_INDEXPTRS_S(j));
-    std::copy(pattern.row.begin(), pattern.row.end(), SM_INDEXVALS_S(j));
-    stepper.system_.jacobian(t, N_VGetArrayPointer(x), SM_DATA_S(j));
+    stepper.newton_.fill(j, stepper.system_.pattern(),
+                         [&](double* values) { stepper.system_.jacobian(t, N_VGetArrayPointer(x), values); });
   });
 }
 

@@ -38,6 +38,19 @@ T combine(const double* weights, const T* rates, int stride, std::index_sequence
   return (... + (weights[J] * rates[static_cast<int>(J) * stride]));
 }
 
+template <class T>
+constexpr int directions = 0;
+template <>
+constexpr int directions<Jet> = Jet::DIMENSION;
+
+/// Part 0 is the value, part k the derivative along direction k - 1.
+double part(double x, int) { return x; }
+double part(const Jet& x, int p) { return p == 0 ? x.a : x.v[p - 1]; }
+
+double weight(const StepperOptions& options, double before, double after) {
+  return options.atol + options.rtol * std::max(std::fabs(before), std::fabs(after));
+}
+
 }  // namespace
 
 template <class T>
@@ -163,34 +176,36 @@ void DormandPrince<T>::stage(const double (&a)[N], T t, int target) {
 }
 
 template <class T>
-double DormandPrince<T>::tolerance_of(int i) const {
-  const double scale = std::max(std::fabs(value_of(row(before)[i])), std::fabs(value_of(row(after)[i])));
-  return options_.atol + options_.rtol * scale;
+T DormandPrince<T>::error_of(int i) const {
+  return taken_ * combine(e, row(0) + i, size_, std::make_index_sequence<stages>());
 }
 
 template <class T>
-double DormandPrince<T>::error_of(int i) const {
-  const T* rates = row(0) + i;
-  double sum = 0.0;
-  for (int j = 0; j < stages; ++j) sum += e[j] * value_of(rates[j * size_]);
-  return value_of(taken_) * sum / tolerance_of(i);
+double DormandPrince<T>::weighted_error(int i) const {
+  return value_of(error_of(i)) / weight(options_, value_of(row(before)[i]), value_of(row(after)[i]));
 }
 
 template <class T>
 double DormandPrince<T>::error_norm() const {
-  double sum = 0.0;
+  constexpr int most_parts = 1 + directions<T>;
+  const int parts = options_.derivative_errors ? most_parts : 1;
+  double sums[most_parts] = {};
   for (int i = 0; i < size_; ++i) {
-    const double weighted = error_of(i);
-    sum += weighted * weighted;
+    const T error = error_of(i), &x0 = row(before)[i], &x1 = row(after)[i];
+    for (int p = 0; p < parts; ++p) {
+      const double weighted = part(error, p) / weight(options_, part(x0, p), part(x1, p));
+      sums[p] += weighted * weighted;
+    }
   }
-  return std::sqrt(sum / size_);
+  const double worst = *std::max_element(sums, sums + parts);
+  return std::sqrt(worst / size_);
 }
 
 template <class T>
 int DormandPrince<T>::limiting_state() const {
   int worst = -1;
   for (int i = 0; i < size_; ++i) {
-    if (worst < 0 || std::fabs(error_of(i)) > std::fabs(error_of(worst))) worst = i;
+    if (worst < 0 || std::fabs(weighted_error(i)) > std::fabs(weighted_error(worst))) worst = i;
   }
   return worst;
 }
@@ -201,8 +216,9 @@ double DormandPrince<T>::step_times_stiffness() const {
   const T *sixth = row(trial), *sixth_rate = row(last_rate - 1);
   double states = 0.0, rates = 0.0;
   for (int i = 0; i < size_; ++i) {
-    const double state = value_of(row(after)[i] - sixth[i]) / tolerance_of(i);
-    const double rate = value_of(row(last_rate)[i] - sixth_rate[i]) / tolerance_of(i);
+    const double scale = weight(options_, value_of(row(before)[i]), value_of(row(after)[i]));
+    const double state = value_of(row(after)[i] - sixth[i]) / scale;
+    const double rate = value_of(row(last_rate)[i] - sixth_rate[i]) / scale;
     states += state * state;
     rates += rate * rate;
   }
@@ -226,7 +242,7 @@ void DormandPrince<T>::remember(double error, const Reach& taken, bool rejected,
 template <class T>
 void DormandPrince<T>::fail(double next) const {
   std::vector<double> weighted;
-  for (int i = 0; i < size_; ++i) weighted.push_back(error_of(i));
+  for (int i = 0; i < size_; ++i) weighted.push_back(weighted_error(i));
   throw step_vanished(value_of(begin_), next, worst_states(system_, weighted));
 }
 

@@ -10,9 +10,10 @@ namespace flyball {
 /// Dormand and Prince's explicit Runge-Kutta pair of orders 5 and 4: six rates a step (the last is the first
 /// of the next step), a fourth-order continuous extension, steps chosen by a PI controller.
 ///
-/// The error of a step is sqrt(mean((e / (atol + rtol max(|x0|, |x1|)))^2)) and at most 1. Steps are chosen
-/// by values alone, so that derivatives in T are those of the steps that were taken; a step that lands on a
-/// limit carries the limit's. A step that the limit shortens never makes the remembered size smaller.
+/// The error of a step is sqrt(mean((e / (atol + rtol max(|x0|, |x1|)))^2)) and at most 1. Unless
+/// StepperOptions::derivative_errors, steps are chosen by values alone, so that derivatives in T are those of
+/// the steps that were taken; else the same bound holds for each direction. A step that lands on a limit
+/// carries the limit's derivatives. A step that the limit shortens never makes the remembered size smaller.
 ///
 /// Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., tables II.5.2
 /// (method) and section II.6 (extension), p. 169 (first step); E. Hairer's dopri5.f (controller).
@@ -50,8 +51,8 @@ class DormandPrince final : public Stepper<T> {
   void extend();
   template <std::size_t N>
   void stage(const double (&a)[N], T t, int target);
-  double tolerance_of(int i) const;
-  double error_of(int i) const;
+  T error_of(int i) const;
+  double weighted_error(int i) const;
   double error_norm() const;
   void remember(double error, const Reach& taken, bool rejected, StepMemory& memory) const;
   [[noreturn]] void fail(double next) const;

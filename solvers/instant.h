@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "solvers/handlers.h"
 #include "solvers/plan_system.h"
 #include "solvers/sweep.h"
 #include "solvers/zeros.h"
@@ -25,6 +26,19 @@ struct EventCounts {
   long sweeps = 0;
 };
 
+/// Hears what an instant does, while it does it: who repeats a run on another scalar listens.
+class InstantListener {
+ public:
+  virtual ~InstantListener() = default;
+  /// Before anything has happened; what was located is in Zeros::found.
+  virtual void begins(const Due& due, const Zeros& zeros) = 0;
+  /// After a sweep; `hits` are null when sampled blocks were left out.
+  virtual void swept(const Due* hits) = 0;
+  /// After the handlers ran, before what they staged is committed.
+  virtual void handled(const std::vector<HandlerCall>& calls) = 0;
+  virtual void ends() = 0;
+};
+
 /// The one place where things happen at a point in time, shared by all methods: docs/semantics.md.
 class Instant {
  public:
@@ -34,6 +48,9 @@ class Instant {
   /// that a rate depends on. Throws SimulationError on non-finite values, chattering and alarms in the past.
   bool run(const Due& due);
 
+  /// Tells `listener` from now on; it must outlive all instants.
+  void tell(InstantListener& listener) { listener_ = &listener; }
+
   /// Asks all schedules; `workspace.values` then holds the times of the alarms.
   void ask_schedules();
   /// The earliest alarm; `never` when none is set.
@@ -42,21 +59,10 @@ class Instant {
   const EventCounts& counts() const { return counts_; }
 
  private:
-  enum class Method { on_sample, on_time, on_crossing };
-  struct Handler {
-    int instance;
-    Method method;
-    int local;  // crossing
-  };
-
   void sweep(const Due* hits);
   void collect_due(const Due& due);
   void collect_crossings(const std::vector<int>& numbers);
-  void run_handlers();
-  void run_handler(const Handler& handler);
-  void run_again(const Handler& handler);
-  void check_staged() const;
-  bool commit();
+  bool run_handlers();
   void remember();
   bool states_changed() const;
   bool changed(const std::vector<int>& slots, const std::vector<double>& remembered) const;
@@ -69,11 +75,9 @@ class Instant {
   PlanSystem& system_;
   Zeros& zeros_;
   Sweep sweep_;
-  std::vector<int> staged_first_, staged_;  // slots of states and held values of each instance
-  std::vector<Handler> handlers_;
-  std::vector<unsigned char> is_staged_;  // of each instance, in this round
-  std::vector<int> touched_;              // instances staged in this round
-  std::vector<double> saved_;
+  Handlers<double> handlers_;
+  std::vector<HandlerCall> calls_;
+  InstantListener* listener_ = nullptr;
   std::vector<double> states_before_, externals_before_, frozen_before_;
   std::vector<double> rates_;
   EventCounts counts_;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "solvers/chattering.h"
+#include "solvers/parameters.h"
 
 namespace flyball {
 namespace {
@@ -23,14 +24,6 @@ StepperOptions stepper_options(const SimulationSettings& settings) {
   options.max_step = settings.max_step.value_or(settings.stop / 50.0);
   options.fixed_step = settings.step.value_or(settings.stop / 1000.0);
   return options;
-}
-
-void require_in_range(const std::string& name, double value, const Range& range) {
-  if (range.contains(value)) return;
-  if (std::isnan(value)) throw std::invalid_argument(name + " is not a number");
-  throw std::invalid_argument(fmt::format("{} is {}, outside its range {}{}, {}{}", name, value,
-                                          range.lower_open ? '(' : '[', range.lower, range.upper,
-                                          range.upper_open ? ')' : ']'));
 }
 
 std::vector<int> logged_slots(const Plan& plan) {
@@ -291,28 +284,9 @@ Profile Simulator::profile(const Profiler& profiler) const {
 }
 
 void Simulator::set_parameter(std::string_view name, double value) {
-  const int slot = plan_->parameter_slot(name);
-  if (slot < 0) throw std::invalid_argument(fmt::format("there is no parameter {}", name));
-  const bool literal = std::ranges::find(plan_->literals, slot, &Start::slot) != plan_->literals.end();
-  if (!literal) throw std::invalid_argument(fmt::format("{} is computed from other parameters", name));
-  const int p = plan_->diagram->find_parameter(name);
-  if (p >= 0 && plan_->diagram->parameters[p].structural) {
-    throw std::invalid_argument(fmt::format("{} fixes the structure of a block: it takes a new plan", name));
-  }
-  workspace_.values[slot] = value;
+  workspace_.values[settable_slot(*plan_, name)] = value;
   derive(*plan_, workspace_);
-  for (const Parameter& parameter : plan_->diagram->parameters) {
-    const auto at = static_cast<std::size_t>(&parameter - plan_->diagram->parameters.data());
-    require_in_range(parameter.name, workspace_.values[plan_->model_slots[at]], parameter.range);
-  }
-  for (std::size_t i = 0; i < plan_->diagram->instances.size(); ++i) {
-    const Instance& instance = plan_->diagram->instances[i];
-    for (const auto& [local, binding] : instance.parameters) {
-      const SlotSpec& spec = instance.object->specification->slots[local];
-      const double x = workspace_.values[plan_->index_of(static_cast<int>(i))[local]];
-      require_in_range(fmt::format("{}.{}", instance.name, spec.name), x, spec.range);
-    }
-  }
+  require_in_range(*plan_, workspace_);
 }
 
 }  // namespace flyball

@@ -62,6 +62,9 @@ class Simulator {
   /// there is none, when it is structural or derived, or when the value is out of range.
   void set_parameter(std::string_view name, double value);
 
+  /// Tells `listener` what each instant does; it must outlive the run.
+  void tell(InstantListener& listener) { instant_.tell(listener); }
+
  private:
   enum class Stage { fresh, resumed, running };
   Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings& settings, Workspace<double> workspace,

@@ -36,8 +36,9 @@ class System {
 struct StepperOptions {
   double rtol = 1e-6;
   double atol = 1e-8;
-  double max_step = 0.0;    // above 0
-  double fixed_step = 0.0;  // of fixed-step methods, above 0
+  double max_step = 0.0;           // above 0
+  double fixed_step = 0.0;         // of fixed-step methods, above 0
+  bool derivative_errors = false;  // on Jets: whether the errors of derivatives limit a step, too
 };
 
 /// What a variable-step method carries from step to step. It belongs to the workspace, so that a copied

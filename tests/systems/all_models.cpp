@@ -1,22 +1,11 @@
 #include <cmath>
-#include <filesystem>
 
-#include "tests/source_dir.h"
 #include "tests/systems/harness.h"
 
 using namespace flyball;
 using namespace flyball::test;
 
 namespace {
-
-std::vector<std::string> model_files() {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(source_dir() + "/models")) {
-    if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
-  }
-  std::ranges::sort(files);
-  return files;
-}
 
 /// Where a run ends, and what it had on the way.
 struct End {

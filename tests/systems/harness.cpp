@@ -1,5 +1,9 @@
 #include "tests/systems/harness.h"
 
+#include <filesystem>
+
+#include "tests/source_dir.h"
+
 namespace flyball::test {
 namespace {
 
@@ -33,6 +37,15 @@ Model read_model(std::string_view text) {
 Model load_model(const std::string& file, const std::vector<Override>& overrides) {
   Diagnostics diagnostics(file);
   return plan_of(read_diagram(diagnostics, overrides), diagnostics);
+}
+
+std::vector<std::string> model_files() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source_dir() + "/models")) {
+    if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+  }
+  std::ranges::sort(files);
+  return files;
 }
 
 std::string refusal_of(std::string_view text) {

@@ -28,6 +28,8 @@ std::string text_of(const Diagnostics& diagnostics);
 Model read_model(std::string_view text);
 /// The same from a file.
 Model load_model(const std::string& file, const std::vector<Override>& overrides = {});
+/// All shipped models, in the order of their names.
+std::vector<std::string> model_files();
 /// The diagnostics of a model that cannot be read or planned.
 std::string refusal_of(std::string_view text);
 
