@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "blocks/jet.h"
 #include "solvers/step_failure.h"
 
 namespace flyball {
