@@ -7,6 +7,7 @@
 namespace flyball {
 
 inline double value_of(const Jet& x) { return x.a; }
+inline bool nonzero(const Jet& x) { return x.a != 0.0; }
 
 inline Jet select(bool on, const Jet& a, const Jet& b) { return on ? a : b; }
 inline Jet select(bool on, const Jet& a, double b) { return on ? a : Jet(b); }

@@ -86,6 +86,20 @@ BlockType describe(std::string name, std::string family) {
   return type;
 }
 
+/// The equations of a block on lanes: empty for one on double alone. Defined in blocks/lane_kernels.h.
+template <class B, Isa isa>
+Kernels<Lanes<isa>> lane_kernels();
+
+/// Adds the equations on lanes, as far as this machine can run them.
+template <class B>
+BlockType with_lanes(BlockType type) {
+  type.kernels.on_baseline_lanes = lane_kernels<B, Isa::baseline>();
+  if constexpr (compiled_for_avx2) {
+    if (supports(Isa::avx2)) type.kernels.on_avx2_lanes = lane_kernels<B, Isa::avx2>();
+  }
+  return type;
+}
+
 /// Defined once for each block, in the translation unit of its family.
 template <class B>
 BlockType block_type();

@@ -38,9 +38,17 @@ using std::tanh;
 /// The time of an alarm that is not set.
 inline constexpr double never = std::numeric_limits<double>::infinity();
 
-/// The truth value of a branch: bool, or for a Dependency the set that the truth depends on.
+/// The truth value of a branch: bool, for a Dependency the set that the truth depends on, for lanes one each.
 template <class T>
-using Bit = std::conditional_t<std::is_same_v<T, Dependency>, DependencyBit, bool>;
+struct BitOf {
+  using type = bool;
+};
+template <>
+struct BitOf<Dependency> {
+  using type = DependencyBit;
+};
+template <class T>
+using Bit = typename BitOf<T>::type;
 
 inline bool both(bool a, bool b) { return a && b; }
 inline bool either(bool a, bool b) { return a || b; }
@@ -48,6 +56,9 @@ inline bool opposite(bool a) { return !a; }
 
 inline double value_of(double x) { return x; }
 inline double value_of(const Jet& x);
+
+inline bool nonzero(double x) { return x != 0.0; }
+inline bool nonzero(const Jet& x);
 
 /// `a` where the bit is on, else `b`. The only branch that an equation may take on a signal.
 inline double select(bool on, double a, double b) { return on ? a : b; }
