@@ -34,5 +34,6 @@ void add_loop(std::vector<Workload>& workloads);
 void add_sampled(std::vector<Workload>& workloads);
 void add_chain(std::vector<Workload>& workloads);
 void add_events(std::vector<Workload>& workloads);
+void add_sweep(std::vector<Workload>& workloads);
 
 }  // namespace flyball::bench

@@ -57,14 +57,15 @@ class alignas(8 * lane_count) Lanes {
   Lanes& operator/=(const Lanes& b) {
     return each(b, [](Numbers& x, const Numbers& y) { x /= y; });
   }
-  friend Lanes operator+(Lanes a, const Lanes& b) { return a += b; }
-  friend Lanes operator-(Lanes a, const Lanes& b) { return a -= b; }
-  friend Lanes operator*(Lanes a, const Lanes& b) { return a *= b; }
-  friend Lanes operator/(Lanes a, const Lanes& b) { return a /= b; }
+  friend Lanes operator+(const Lanes& a, const Lanes& b) { return Lanes(a) += b; }
+  friend Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(a) -= b; }
+  friend Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a) *= b; }
+  friend Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a) /= b; }
   friend Lanes operator+(const Lanes& a) { return a; }
-  friend Lanes operator-(Lanes a) {
-    for (Numbers& p : a.part_) p = -p;
-    return a;
+  friend Lanes operator-(const Lanes& a) {
+    Lanes negative;
+    for (int k = 0; k < parts; ++k) negative.part_[k] = -a.part_[k];
+    return negative;
   }
 
   friend LaneBit<isa> greater(const Lanes& a, const Lanes& b) {
@@ -77,13 +78,24 @@ class alignas(8 * lane_count) Lanes {
     for (int k = 0; k < parts; ++k) bit.part(k) = x.part_[k] != Numbers{};
     return bit;
   }
+  /// Where x is not a number.
+  friend LaneBit<isa> unordered(const Lanes& x) {
+    LaneBit<isa> bit;
+    for (int k = 0; k < parts; ++k) bit.part(k) = x.part_[k] != x.part_[k];
+    return bit;
+  }
   friend Lanes min(const Lanes& a, const Lanes& b) { return select(greater(a, b), b, a); }
   friend Lanes max(const Lanes& a, const Lanes& b) { return select(greater(b, a), b, a); }
 
-  // Lane by lane through the same functions as double, so that the bits are the same.
   friend Lanes abs(const Lanes& x) {
-    return map(x, [](double a) { return std::fabs(a); });
+    using Masks = typename Register<isa>::Masks;
+    constexpr std::int64_t all_but_the_sign = 0x7fffffffffffffff;
+    Lanes y;
+    for (int k = 0; k < parts; ++k) y.part_[k] = Numbers(Masks(x.part_[k]) & (Masks{} + all_but_the_sign));
+    return y;
   }
+
+  // Lane by lane through the same functions as double, so that the bits are the same.
   friend Lanes sqrt(const Lanes& x) {
     return map(x, [](double a) { return std::sqrt(a); });
   }
@@ -181,17 +193,20 @@ class alignas(8 * lane_count) LaneBit {
   const Masks& part(int k) const { return part_[k]; }
   Masks& part(int k) { return part_[k]; }
 
-  friend LaneBit both(LaneBit a, const LaneBit& b) {
-    for (int k = 0; k < parts; ++k) a.part_[k] &= b.part_[k];
-    return a;
+  friend LaneBit both(const LaneBit& a, const LaneBit& b) {
+    LaneBit bit;
+    for (int k = 0; k < parts; ++k) bit.part_[k] = a.part_[k] & b.part_[k];
+    return bit;
   }
-  friend LaneBit either(LaneBit a, const LaneBit& b) {
-    for (int k = 0; k < parts; ++k) a.part_[k] |= b.part_[k];
-    return a;
+  friend LaneBit either(const LaneBit& a, const LaneBit& b) {
+    LaneBit bit;
+    for (int k = 0; k < parts; ++k) bit.part_[k] = a.part_[k] | b.part_[k];
+    return bit;
   }
-  friend LaneBit opposite(LaneBit a) {
-    for (Masks& p : a.part_) p = ~p;
-    return a;
+  friend LaneBit opposite(const LaneBit& a) {
+    LaneBit bit;
+    for (int k = 0; k < parts; ++k) bit.part_[k] = ~a.part_[k];
+    return bit;
   }
   friend Lanes<isa> select(const LaneBit& on, const Lanes<isa>& a, const Lanes<isa>& b) {
     Lanes<isa> result;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "solvers/chattering.h"
+#include "solvers/parameters.h"
 
 namespace flyball {
 namespace {
@@ -17,6 +18,14 @@ constexpr int most_close_events = 50;
 
 std::string chosen_method(const std::string& method) { return method == "auto" ? "dp5" : method; }
 
+std::vector<int> logged_slots(const Plan& plan) {
+  std::vector<int> slots;
+  for (const LogColumn& column : plan.columns) slots.push_back(column.slot);
+  return slots;
+}
+
+}  // namespace
+
 StepperOptions stepper_options(const SimulationSettings& settings) {
   StepperOptions options;
   options.rtol = settings.rtol;
@@ -25,22 +34,6 @@ StepperOptions stepper_options(const SimulationSettings& settings) {
   options.fixed_step = settings.step.value_or(settings.stop / 1000.0);
   return options;
 }
-
-void require_in_range(const std::string& name, double value, const Range& range) {
-  if (range.contains(value)) return;
-  if (std::isnan(value)) throw std::invalid_argument(name + " is not a number");
-  throw std::invalid_argument(fmt::format("{} is {}, outside its range {}{}, {}{}", name, value,
-                                          range.lower_open ? '(' : '[', range.lower, range.upper,
-                                          range.upper_open ? ')' : ']'));
-}
-
-std::vector<int> logged_slots(const Plan& plan) {
-  std::vector<int> slots;
-  for (const LogColumn& column : plan.columns) slots.push_back(column.slot);
-  return slots;
-}
-
-}  // namespace
 
 Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings& settings, LogOptions log)
     : Simulator(plan, settings, Workspace<double>(*plan), log, Stage::fresh) {}
@@ -57,6 +50,7 @@ Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings&
       stage_(stage),
       method_(chosen_method(settings.method)),
       options_(stepper_options(settings)),
+      asked_(settings),
       workspace_(std::move(workspace)),
       system_(*plan_, workspace_),
       zeros_(*plan_, workspace_),
@@ -66,20 +60,12 @@ Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings&
       affine_log_(*plan_, plan_->logs, logged_slots(*plan_)),
       polynomial_(log_.width()),
       time_(workspace_.values[0]) {
-  if (settings.log_interval) {
-    log_step_ = static_cast<double>(settings.log_interval->numerator());
-    log_divisor_ = static_cast<double>(settings.log_interval->denominator());
-  } else {
-    log_step_ = settings.stop;
-    log_divisor_ = 1000.0;
-  }
   due_.rates.assign(plan_->hit_rates.size(), 0);
   due_.alarms.reserve(plan_->alarm_records.size());
   recent_.reserve(2 * most_close_events);
   row_before_.reserve(plan_->columns.size() + 1);
   row_after_.resize(plan_->columns.size() + 1);
-  if (log_options_.enabled)
-    log_.reserve(static_cast<std::int64_t>(settings.stop / log_step_ * log_divisor_) + 2);
+  if (log_options_.enabled) log_.reserve(asked_.count(settings.stop));
 }
 
 void Simulator::begin() {
@@ -144,7 +130,7 @@ double Simulator::locate(double t0, double t1, double limit, bool& located) {
 
 void Simulator::instant(double t, double tick, bool located) {
   const bool logs = log_options_.enabled && !log_.columns().empty();
-  const bool was_asked = logs && asked(t);
+  const bool was_asked = logs && asked_.is(workspace_.log_position, t);
   const bool jumps = logs && stage_ == Stage::running && log_options_.event_rows != EventRows::none;
   row_before_.clear();
   if (jumps) {
@@ -208,10 +194,6 @@ void Simulator::watch_progress(double t) {
   if (++close_events_ > most_close_events) throw chattering(t, close_events_, recent_, *plan_, zeros_);
 }
 
-bool Simulator::asked(double t) const {
-  return std::fabs(log_time(workspace_.log_position) - t) <= same_instant(t);
-}
-
 /// A row from inside the last step.
 void Simulator::log_at(double t) {
   double* x = workspace_.values.data() + plan_->layout.first_state;
@@ -229,12 +211,12 @@ void Simulator::log_at(double t) {
 bool Simulator::log_as_polynomial(double last) {
   constexpr std::int64_t worth_it = 8;
   std::int64_t& k = workspace_.log_position;
-  if (log_time(k + worth_it) > last || !affine_log_.applies()) return false;
+  if (asked_.time(k + worth_it) > last || !affine_log_.applies()) return false;
   const auto extension = stepper_->extension();
   if (!extension) return false;
-  if (workspace_.logs_map.stale) log_at(log_time(k++));
+  if (workspace_.logs_map.stale) log_at(asked_.time(k++));
   polynomial_.fit(workspace_.logs_map, *extension);
-  for (double t = log_time(k); t <= last; t = log_time(++k)) {
+  for (double t = asked_.time(k); t <= last; t = asked_.time(++k)) {
     for (int c = 0; c < polynomial_.signals(); ++c) row_after_[c] = polynomial_.value(c, t);
     if (!log_.append(t, row_after_.data())) log_at(t);
   }
@@ -246,7 +228,7 @@ void Simulator::log_asked(double end, bool with_end) {
   const double last = with_end ? end : end - same_instant(end);
   if (!log_as_polynomial(last)) {
     std::int64_t& k = workspace_.log_position;
-    for (double t = log_time(k); t <= last; t = log_time(++k)) log_at(t);
+    for (double t = asked_.time(k); t <= last; t = asked_.time(++k)) log_at(t);
   }
   if (!with_end || end < settings_.stop || (log_.rows() > 0 && log_.time(log_.rows() - 1) >= end)) return;
   log_at(end);
@@ -278,28 +260,9 @@ RunStatistics Simulator::statistics() const {
 }
 
 void Simulator::set_parameter(std::string_view name, double value) {
-  const int slot = plan_->parameter_slot(name);
-  if (slot < 0) throw std::invalid_argument(fmt::format("there is no parameter {}", name));
-  const bool literal = std::ranges::find(plan_->literals, slot, &Start::slot) != plan_->literals.end();
-  if (!literal) throw std::invalid_argument(fmt::format("{} is computed from other parameters", name));
-  const int p = plan_->diagram->find_parameter(name);
-  if (p >= 0 && plan_->diagram->parameters[p].structural) {
-    throw std::invalid_argument(fmt::format("{} fixes the structure of a block: it takes a new plan", name));
-  }
-  workspace_.values[slot] = value;
+  workspace_.values[settable_parameter(*plan_, name)] = value;
   derive(*plan_, workspace_);
-  for (const Parameter& parameter : plan_->diagram->parameters) {
-    const auto at = static_cast<std::size_t>(&parameter - plan_->diagram->parameters.data());
-    require_in_range(parameter.name, workspace_.values[plan_->model_slots[at]], parameter.range);
-  }
-  for (std::size_t i = 0; i < plan_->diagram->instances.size(); ++i) {
-    const Instance& instance = plan_->diagram->instances[i];
-    for (const auto& [local, binding] : instance.parameters) {
-      const SlotSpec& spec = instance.object->specification->slots[local];
-      const double x = workspace_.values[plan_->index_of(static_cast<int>(i))[local]];
-      require_in_range(fmt::format("{}.{}", instance.name, spec.name), x, spec.range);
-    }
-  }
+  require_in_range(*plan_, workspace_);
 }
 
 }  // namespace flyball
