@@ -17,7 +17,7 @@ struct LaneSigns {
 /// A step of Dormand and Prince's method for n states in lanes: rows of n, in the order of DormandPrince.
 template <Isa isa>
 struct LaneStep {
-  static constexpr int stages = 7, before = 7, after = 8, trial = 9, extension = 10, rows = 13;
+  static constexpr int stages = 7, before = 7, after = 8, extension = 9, rows = 12;
 
   Lanes<isa>* storage = nullptr;
   int n = 0;

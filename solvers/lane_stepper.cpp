@@ -17,9 +17,8 @@ LaneStepper<isa>::LaneStepper(LaneGroup<isa>& group, const StepperOptions& optio
       step_{storage_.data(), group.plan.layout.states(), 0.0} {}
 
 template <Isa isa>
-void LaneStepper<isa>::rates(double t, const T* x, T* dx) {
+void LaneStepper<isa>::rates(double t, T* dx) {
   group_.place(t);
-  std::copy_n(x, step_.n, group_.states());
   group_.run(group_.rates, dx);
   ++statistics_.rate_evaluations;
 }
@@ -69,11 +68,13 @@ void LaneStepper<isa>::attempt(double end) {
   end_ = end;
   step_.size = end_ - begin_;
   const double ends[] = {c2, c3, c4, c5};
-  for (int s = 1; s < Step::stages; ++s) {
-    T* state = step_.row(s == Step::stages - 1 ? Step::after : Step::trial);
-    LaneArithmetic<isa>::stage(step_, s, state);
-    rates(s <= 4 ? begin_ + ends[s - 1] * step_.size : end_, state, step_.row(s));
+  for (int s = 1; s < last_rate; ++s) {
+    LaneArithmetic<isa>::stage(step_, s, group_.states());
+    rates(s <= 4 ? begin_ + ends[s - 1] * step_.size : end_, step_.row(s));
   }
+  LaneArithmetic<isa>::stage(step_, last_rate, step_.row(Step::after));
+  std::copy_n(step_.row(Step::after), step_.n, group_.states());
+  rates(end_, step_.row(last_rate));
 }
 
 /// Of the runs that can go on.
@@ -129,12 +130,12 @@ double LaneStepper<isa>::first_step(double remaining) {
   for (int k = 0; k < lane_count; ++k) h0 = std::min(h0, guess_of(k));
   const double least = vanishing_step(begin_, options_.max_step);
   h0 = std::max(h0, least);
-  T* euler = step_.row(Step::trial);
+  T* euler = group_.states();
   const T *x = step_.row(Step::before), *rate = step_.row(0);
   for (int i = 0; i < step_.n; ++i) {
     for (int k = 0; k < lane_count; ++k) euler[i].set_lane(k, x[i].lane(k) + h0 * rate[i].lane(k));
   }
-  rates(begin_ + h0, euler, step_.row(1));
+  rates(begin_ + h0, step_.row(1));
   double h = options_.max_step;
   for (int k = 0; k < lane_count; ++k) h = std::min(h, first_step_of(k, h0));
   return std::max(std::min(100.0 * h0, h), least);

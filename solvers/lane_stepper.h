@@ -31,7 +31,8 @@ class LaneStepper {
   using Step = LaneStep<isa>;
   static constexpr int last_rate = Step::stages - 1;
 
-  void rates(double t, const T* x, T* dx);
+  /// At the states that the group shows.
+  void rates(double t, T* dx);
   double first_step(double remaining);
   double first_step_of(int lane, double h0) const;
   double guess_of(int lane) const;
