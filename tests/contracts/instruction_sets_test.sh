@@ -7,6 +7,6 @@ for library in "$@"; do
   units=$(ar t "$library" | grep -c '_avx2\.' || true)
   [[ $units -gt 0 ]] || { echo "$library has no unit for AVX2"; exit 1; }
   nm --print-file-name --extern-only --defined-only "$library" | awk '
-    /_avx2[.]/ && !/3IsaE1E/ { print "not marked as AVX2: " $0; ++errors }
+    $2 ~ /^[TWi]$/ && /_avx2[.]/ && !/3IsaE1E/ { print "not marked as AVX2: " $0; ++errors }
     END { exit errors > 0 }'
 done
