@@ -15,6 +15,7 @@ constexpr int repeats = 15;
 std::vector<Workload> make_workloads(std::string_view filter) {
   std::vector<Workload> workloads;
   add_loop(workloads);
+  add_robot(workloads);
   add_sampled(workloads);
   add_chain(workloads);
   add_events(workloads);
