@@ -103,7 +103,9 @@ void LaneStepper<isa>::drop_vanished() {
 
 template <Isa isa>
 void LaneStepper<isa>::remember(double error, const Reach& taken, bool rejected) {
-  const double shrink = std::pow(error, exponent) / std::pow(memory_.last_error, beta) / safety;
+  constexpr double negligible = 1e-9;  // grows by the greatest factor, as DormandPrince
+  const double shrink =
+      error < negligible ? 0.0 : std::pow(error, exponent) / std::pow(memory_.last_error, beta) / safety;
   double next = taken.size / std::clamp(shrink, 1.0 / greatest_factor, 1.0 / least_factor);
   if (rejected) next = std::min(next, taken.size);
   // The error of a shortened step belongs to a size that will not be tried again.
