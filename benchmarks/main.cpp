@@ -15,15 +15,18 @@ constexpr int repeats = 15;
 std::vector<Workload> make_workloads(std::string_view filter) {
   std::vector<Workload> workloads;
   add_loop(workloads);
+  add_robot(workloads);
   add_sampled(workloads);
   add_chain(workloads);
   add_events(workloads);
+  add_sweep(workloads);
   std::erase_if(workloads, [&](const Workload& w) { return w.name.find(filter) == std::string::npos; });
   return workloads;
 }
 
 void print_tables(std::string_view filter) {
   print_comparisons(make_workloads(filter), repeats);
+  if (std::string_view("W5 sweep").find(filter) != std::string_view::npos) print_sweep_on_all_cores();
   if (filter.empty()) print_planning();
 }
 

@@ -11,6 +11,9 @@ namespace flyball::bench {
 /// with the twin at the loosest tolerance at which it is as accurate as Flyball.
 void print_comparisons(const std::vector<Workload>& workloads, int repeats);
 
+/// Prints the time of W5 on all cores, by the clock and of the processors.
+void print_sweep_on_all_cores();
+
 /// Prints how long a chain of 10 000 sections takes from text to plan.
 void print_planning();
 

@@ -31,8 +31,10 @@ struct Workload {
 double error_of(const std::vector<double>& result, const std::vector<double>& reference);
 
 void add_loop(std::vector<Workload>& workloads);
+void add_robot(std::vector<Workload>& workloads);
 void add_sampled(std::vector<Workload>& workloads);
 void add_chain(std::vector<Workload>& workloads);
 void add_events(std::vector<Workload>& workloads);
+void add_sweep(std::vector<Workload>& workloads);
 
 }  // namespace flyball::bench

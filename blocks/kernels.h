@@ -3,6 +3,7 @@
 #include <concepts>
 #include <vector>
 
+#include "blocks/isa.h"
 #include "blocks/specification.h"
 #include "blocks/view.h"
 
@@ -63,6 +64,8 @@ struct KernelTable {
   Kernels<double> on_double;
   Kernels<Jet> on_jet;
   Kernels<Dependency> on_dependency;
+  Kernels<Lanes<Isa::baseline>> on_baseline_lanes;
+  Kernels<Lanes<Isa::avx2>> on_avx2_lanes;  // empty where the machine does not support it
 
   template <class T>
   const Kernels<T>& on() const {
@@ -70,6 +73,10 @@ struct KernelTable {
       return on_double;
     } else if constexpr (std::same_as<T, Jet>) {
       return on_jet;
+    } else if constexpr (std::same_as<T, Lanes<Isa::baseline>>) {
+      return on_baseline_lanes;
+    } else if constexpr (std::same_as<T, Lanes<Isa::avx2>>) {
+      return on_avx2_lanes;
     } else {
       return on_dependency;
     }

@@ -7,7 +7,6 @@
 
 #include "blocks/block.h"
 #include "blocks/kernels.h"
-#include "blocks/shim.h"
 
 namespace flyball {
 
@@ -54,6 +53,11 @@ const BlockType* find_block_type(std::string_view name);
 /// All that `find_block_type` finds: names in the order of the catalogue, each before its aliases.
 const std::vector<std::string>& block_type_names();
 
+/// The equations of a block on Jets. Defined in blocks/jet_kernels.h; of the catalogue's blocks in a
+/// translation unit of its own, so that all others compile without Eigen.
+template <class B>
+Kernels<Jet> jet_kernels();
+
 /// Describes a block type; `family` is its folder.
 template <class B>
 BlockType describe(std::string name, std::string family) {
@@ -64,11 +68,9 @@ BlockType describe(std::string name, std::string family) {
   if constexpr (requires { B::aliases; }) type.aliases.assign(B::aliases.begin(), B::aliases.end());
   type.differentiable = kernel::differentiable<B>();
   type.kernels.on_double = kernel::compile<B, double>();
+  type.kernels.on_jet = jet_kernels<B>();
   if constexpr (kernel::differentiable<B>()) {
-    type.kernels.on_jet = kernel::compile<B, Jet>();
     type.kernels.on_dependency = kernel::compile<B, Dependency>();
-  } else {
-    type.kernels.on_jet = kernel::compile_shim<B>();
   }
   type.construct = [](Settings* settings) -> std::shared_ptr<const Block> {
     std::shared_ptr<B> block;
@@ -81,6 +83,20 @@ BlockType describe(std::string name, std::string family) {
     return block;
   };
   type.self = [](const Block& block) -> const void* { return static_cast<const B*>(&block); };
+  return type;
+}
+
+/// The equations of a block on lanes: empty for one on double alone. Defined in blocks/lane_kernels.h.
+template <class B, Isa isa>
+Kernels<Lanes<isa>> lane_kernels();
+
+/// Adds the equations on lanes, as far as this machine can run them.
+template <class B>
+BlockType with_lanes(BlockType type) {
+  type.kernels.on_baseline_lanes = lane_kernels<B, Isa::baseline>();
+  if constexpr (compiled_for_avx2) {
+    if (supports(Isa::avx2)) type.kernels.on_avx2_lanes = lane_kernels<B, Isa::avx2>();
+  }
   return type;
 }
 

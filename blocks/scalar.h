@@ -1,16 +1,20 @@
 #pragma once
 
-#include <ceres/jet.h>
-
 #include <cmath>
 #include <limits>
 #include <type_traits>
 
 #include "blocks/dependency.h"
 
+namespace ceres {
+template <class T, int N>
+struct Jet;
+}
+
 namespace flyball {
 
 /// A value with its derivatives along four directions (three parameters and time, or four Jacobian columns).
+/// Whoever computes with it includes blocks/jet.h, and Eigen with it; all others name it only.
 using Jet = ceres::Jet<double, 4>;
 
 // Equations call these without a qualifier: double finds std's, Jet and Dependency their own.
@@ -34,30 +38,41 @@ using std::tanh;
 /// The time of an alarm that is not set.
 inline constexpr double never = std::numeric_limits<double>::infinity();
 
-/// The truth value of a branch: bool, or for a Dependency the set that the truth depends on.
+/// The truth value of a branch: bool, for a Dependency the set that the truth depends on, for lanes one each.
 template <class T>
-using Bit = std::conditional_t<std::is_same_v<T, Dependency>, DependencyBit, bool>;
+struct BitOf {
+  using type = bool;
+};
+template <>
+struct BitOf<Dependency> {
+  using type = DependencyBit;
+};
+template <class T>
+using Bit = typename BitOf<T>::type;
 
 inline bool both(bool a, bool b) { return a && b; }
 inline bool either(bool a, bool b) { return a || b; }
 inline bool opposite(bool a) { return !a; }
 
 inline double value_of(double x) { return x; }
-inline double value_of(const Jet& x) { return x.a; }
+inline double value_of(const Jet& x);
+
+inline bool nonzero(double x) { return x != 0.0; }
+inline bool nonzero(const Jet& x);
 
 /// `a` where the bit is on, else `b`. The only branch that an equation may take on a signal.
 inline double select(bool on, double a, double b) { return on ? a : b; }
-inline Jet select(bool on, const Jet& a, const Jet& b) { return on ? a : b; }
-inline Jet select(bool on, const Jet& a, double b) { return on ? a : Jet(b); }
-inline Jet select(bool on, double a, const Jet& b) { return on ? Jet(a) : b; }
+inline Jet select(bool on, const Jet& a, const Jet& b);
+inline Jet select(bool on, const Jet& a, double b);
+inline Jet select(bool on, double a, const Jet& b);
 
 // Kinks that nobody locates: fit for parameters and sampled signals. Continuous signals want a relation.
 inline double abs(double x) { return std::fabs(x); }
 inline double min(double a, double b) { return b < a ? b : a; }
 inline double max(double a, double b) { return a < b ? b : a; }
-inline Jet abs(const Jet& x) { return x.a < 0.0 ? -x : x; }
-inline Jet min(const Jet& a, const Jet& b) { return b.a < a.a ? b : a; }
-inline Jet max(const Jet& a, const Jet& b) { return a.a < b.a ? b : a; }
+inline Jet abs(const Jet& x);
+inline Jet min(const Jet& a, const Jet& b);
+inline Jet max(const Jet& a, const Jet& b);
 
 /// The lower limit wins when the limits are crossed.
 template <class T>
@@ -67,6 +82,6 @@ T clamp(const T& x, const T& lower, const T& upper) {
 
 /// The angle in [-pi, pi] that differs from `a` by whole turns (IEEE remainder).
 inline double wrap(double a) { return std::remainder(a, 2.0 * M_PI); }
-inline Jet wrap(const Jet& a) { return a + (std::remainder(a.a, 2.0 * M_PI) - a.a); }
+inline Jet wrap(const Jet& a);
 
 }  // namespace flyball

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "blocks/jet.h"
 #include "blocks/kernels.h"
 
 namespace flyball::kernel {

@@ -19,7 +19,7 @@ struct Frame {
   T* values = nullptr;                  // the value array
   T* rates = nullptr;                   // of state s at s - first_state
   T* next = nullptr;                    // staged states and held values, at slot - first_state
-  const unsigned char* bits = nullptr;  // of relation r at r - first_relation
+  const unsigned char* bits = nullptr;  // of relation r at r - first_relation; one bit a lane
   int first_state = 0;
   int first_relation = 0;
   std::shared_ptr<const void>* objects = nullptr;
@@ -70,7 +70,7 @@ class View {
     if constexpr (std::is_same_v<T, Dependency>) {
       return {Dependency::on(index_[r.slot])};
     } else {
-      return frame_.bits[index_[r.slot] - frame_.first_relation] != 0;
+      return Bit<T>(frame_.bits[index_[r.slot] - frame_.first_relation]);
     }
   }
 
@@ -79,7 +79,7 @@ class View {
     if constexpr (std::is_same_v<T, Dependency>) {
       return {value(h)};
     } else {
-      return value_of(value(h)) != 0.0;
+      return nonzero(value(h));
     }
   }
 

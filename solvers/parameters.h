@@ -6,11 +6,14 @@
 
 namespace flyball {
 
-/// The slot of a parameter that a run may set: "K" or "block.parameter". Throws std::invalid_argument when
-/// there is none, and when it is structural or derived.
-int settable_slot(const Plan& plan, std::string_view name);
+/// The slot of "K" or "block.parameter". Throws std::invalid_argument when there is none, or when nothing may
+/// set it.
+int settable_parameter(const Plan& plan, std::string_view name);
 
-/// Throws std::invalid_argument that names the first parameter out of its range.
+/// Throws std::invalid_argument when the parameter in a slot is structural or computed from others.
+void require_settable(const Plan& plan, int slot);
+
+/// Throws std::invalid_argument when a parameter is outside of its range.
 void require_in_range(const Plan& plan, const Workspace<double>& workspace);
 
 }  // namespace flyball

@@ -70,7 +70,7 @@ Sensitivities::Run::Run(std::shared_ptr<const Plan> plan, const SimulationSettin
     : plan_(std::move(plan)), settings_(settings), request_(std::move(request)) {
   require_times(request_.times, settings.stop);
   for (const std::string& name : request_.parameters) {
-    slots_.push_back(settable_slot(*plan_, name));
+    slots_.push_back(settable_parameter(*plan_, name));
     model_values_.push_back(std::ranges::find(plan_->literals, slots_.back(), &Start::slot)->value);
   }
   for (const std::string& name : request_.signals) table_.slots.push_back(signal_slot(*plan_, name));

@@ -17,14 +17,6 @@ namespace {
 /// So many located events in a row, each within rounding of the one before, are no motion any more.
 constexpr int most_close_events = 50;
 
-StepperOptions stepper_options(const SimulationSettings& settings) {
-  StepperOptions options;
-  options.rtol = settings.rtol;
-  options.atol = settings.atol;
-  options.max_step = settings.max_step.value_or(settings.stop / 50.0);
-  options.fixed_step = settings.step.value_or(settings.stop / 1000.0);
-  return options;
-}
 
 std::vector<int> logged_slots(const Plan& plan) {
   std::vector<int> slots;
@@ -33,6 +25,15 @@ std::vector<int> logged_slots(const Plan& plan) {
 }
 
 }  // namespace
+
+StepperOptions stepper_options(const SimulationSettings& settings) {
+  StepperOptions options;
+  options.rtol = settings.rtol;
+  options.atol = settings.atol;
+  options.max_step = settings.max_step.value_or(settings.stop / 50.0);
+  options.fixed_step = settings.step.value_or(settings.stop / 1000.0);
+  return options;
+}
 
 Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings& settings, LogOptions log)
     : Simulator(plan, settings, Workspace<double>(*plan), log, Stage::fresh) {}
@@ -48,6 +49,7 @@ Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings&
       log_options_(log),
       stage_(stage),
       options_(stepper_options(settings)),
+      asked_(settings),
       workspace_(std::move(workspace)),
       system_(*plan_, workspace_),
       method_(first_method(*plan_, system_, settings)),
@@ -58,20 +60,12 @@ Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings&
       affine_log_(*plan_, plan_->logs, logged_slots(*plan_)),
       polynomial_(log_.width()),
       time_(workspace_.values[0]) {
-  if (settings.log_interval) {
-    log_step_ = static_cast<double>(settings.log_interval->numerator());
-    log_divisor_ = static_cast<double>(settings.log_interval->denominator());
-  } else {
-    log_step_ = settings.stop;
-    log_divisor_ = 1000.0;
-  }
   due_.rates.assign(plan_->hit_rates.size(), 0);
   due_.alarms.reserve(plan_->alarm_records.size());
   recent_.reserve(2 * most_close_events);
   row_before_.reserve(plan_->columns.size() + 1);
   row_after_.resize(plan_->columns.size() + 1);
-  if (log_options_.enabled)
-    log_.reserve(static_cast<std::int64_t>(settings.stop / log_step_ * log_divisor_) + 2);
+  if (log_options_.enabled) log_.reserve(asked_.count(settings.stop));
 }
 
 void Simulator::begin() {
@@ -137,7 +131,7 @@ double Simulator::locate(double t0, double t1, double limit, bool& located) {
 
 void Simulator::instant(double t, double tick, bool located) {
   const bool logs = log_options_.enabled && !log_.columns().empty();
-  const bool was_asked = logs && asked(t);
+  const bool was_asked = logs && asked_.is(workspace_.log_position, t);
   const bool jumps = logs && stage_ == Stage::running && log_options_.event_rows != EventRows::none;
   row_before_.clear();
   if (jumps) {
@@ -201,10 +195,6 @@ void Simulator::watch_progress(double t) {
   if (++close_events_ > most_close_events) throw chattering(t, close_events_, recent_, *plan_, zeros_);
 }
 
-bool Simulator::asked(double t) const {
-  return std::fabs(log_time(workspace_.log_position) - t) <= same_instant(t);
-}
-
 /// A row from inside the last step.
 void Simulator::log_at(double t) {
   double* x = workspace_.values.data() + plan_->layout.first_state;
@@ -222,12 +212,12 @@ void Simulator::log_at(double t) {
 bool Simulator::log_as_polynomial(double last) {
   constexpr std::int64_t worth_it = 8;
   std::int64_t& k = workspace_.log_position;
-  if (log_time(k + worth_it) > last || !affine_log_.applies()) return false;
+  if (asked_.time(k + worth_it) > last || !affine_log_.applies()) return false;
   const auto extension = stepper_->extension();
   if (!extension) return false;
-  if (workspace_.logs_map.stale) log_at(log_time(k++));
+  if (workspace_.logs_map.stale) log_at(asked_.time(k++));
   polynomial_.fit(workspace_.logs_map, *extension);
-  for (double t = log_time(k); t <= last; t = log_time(++k)) {
+  for (double t = asked_.time(k); t <= last; t = asked_.time(++k)) {
     for (int c = 0; c < polynomial_.signals(); ++c) row_after_[c] = polynomial_.value(c, t);
     if (!log_.append(t, row_after_.data())) log_at(t);
   }
@@ -239,7 +229,7 @@ void Simulator::log_asked(double end, bool with_end) {
   const double last = with_end ? end : end - same_instant(end);
   if (!log_as_polynomial(last)) {
     std::int64_t& k = workspace_.log_position;
-    for (double t = log_time(k); t <= last; t = log_time(++k)) log_at(t);
+    for (double t = asked_.time(k); t <= last; t = asked_.time(++k)) log_at(t);
   }
   if (!with_end || end < settings_.stop || (log_.rows() > 0 && log_.time(log_.rows() - 1) >= end)) return;
   log_at(end);
@@ -284,7 +274,7 @@ Profile Simulator::profile(const Profiler& profiler) const {
 }
 
 void Simulator::set_parameter(std::string_view name, double value) {
-  workspace_.values[settable_slot(*plan_, name)] = value;
+  workspace_.values[settable_parameter(*plan_, name)] = value;
   derive(*plan_, workspace_);
   require_in_range(*plan_, workspace_);
 }

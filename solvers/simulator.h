@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "solvers/asked_times.h"
 #include "solvers/instant.h"
 #include "solvers/log.h"
 #include "solvers/method.h"
@@ -25,6 +26,9 @@ struct RunStatistics {
   long alarms = 0;
   long events = 0;  // relations and crossings that fired
 };
+
+/// Tolerances and step limits, with their defaults.
+StepperOptions stepper_options(const SimulationSettings& settings);
 
 /// Runs one plan in one workspace: steps, finds events, carries out instants, logs.
 class Simulator {
@@ -78,8 +82,6 @@ class Simulator {
   void check_alarms(double t) const;
   void watch_progress(double t);
 
-  double log_time(std::int64_t k) const { return static_cast<double>(k) * log_step_ / log_divisor_; }
-  bool asked(double t) const;
   void log_at(double t);
   bool log_as_polynomial(double last);
   void log_asked(double end, bool with_end);
@@ -90,7 +92,7 @@ class Simulator {
   LogOptions log_options_;
   Stage stage_;
   StepperOptions options_;
-  double log_step_ = 0.0, log_divisor_ = 1.0;  // asked time k is k * step / divisor, rounded once
+  AskedTimes asked_;
   Workspace<double> workspace_;
   PlanSystem system_;
   std::string method_;  // of make_stepper

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "blocks/jet.h"
 #include "models/plan.h"
 #include "solvers/algebraic_loop.h"
 #include "solvers/stepper.h"

@@ -1,5 +1,6 @@
 #include "blocks/formula.h"
 
+#include "blocks/jet.h"
 #include "tests/blocks/bench.h"
 #include "tests/blocks/formulas.h"
 #include "tests/catch.h"

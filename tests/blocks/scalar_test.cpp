@@ -1,5 +1,5 @@
 // The functions that equations call, on each scalar.
-#include "blocks/scalar.h"
+#include "blocks/jet.h"
 
 #include <concepts>
 

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include "blocks/jet.h"
 #include "tests/catch.h"
 #include "tests/contracts/cases.h"
 

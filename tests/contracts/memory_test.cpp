@@ -1,5 +1,6 @@
 // Blocks with object memory: the same on double and, through the shim, on Jet; copied deeply with their
 // workspace.
+#include "blocks/jet_kernels.h"
 #include "tests/blocks/bench.h"
 #include "tests/catch.h"
 #include "tests/contracts/memory_block.h"

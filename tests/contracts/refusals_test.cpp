@@ -1,5 +1,5 @@
 // Declarations and methods that do not agree are refused when a block type is first constructed.
-#include "blocks/registry.h"
+#include "blocks/jet_kernels.h"
 #include "tests/catch.h"
 
 namespace flyball::test {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "blocks/jet.h"
 #include "solvers/errors.h"
 #include "tests/catch.h"
 #include "tests/solvers/problems.h"

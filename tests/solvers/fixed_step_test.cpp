@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "blocks/jet.h"
 #include "tests/catch.h"
 #include "tests/solvers/problems.h"
 

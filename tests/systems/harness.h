@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "blocks/jet_kernels.h"
 #include "models/plan.h"
 #include "solvers/errors.h"
 #include "solvers/simulator.h"

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solvers/lane_instant.h"
+#include "solvers/log.h"
+#include "solvers/simulator.h"
+
+namespace flyball {
+
+/// Runs groups of one plan, one after the other, in lockstep: step size and events are common to a group.
+class LaneRun {
+ public:
+  virtual ~LaneRun() = default;
+
+  /// Gives a lane an initialised run; lanes that are loaded without `counts` only fill the group.
+  virtual void load(int lane, const Workspace<double>& initialised, bool counts) = 0;
+  /// Runs the group to the stop time.
+  virtual void run() = 0;
+  /// Whether the run of a lane went through. If not, it must run on its own, which tells why.
+  virtual bool finished(int lane) const = 0;
+  virtual double value(int slot, int lane) const = 0;
+  virtual Log take_log(int lane) = 0;
+
+  static std::unique_ptr<LaneRun> make(Isa isa, const Plan& plan, const SimulationSettings& settings,
+                                       const LogOptions& log);
+};
+
+}  // namespace flyball

@@ -1,0 +1,216 @@
+// Runs in lockstep against the same runs one by one.
+#include "solvers/lane_simulator.h"
+
+#include <cmath>
+
+#include "solvers/parameters.h"
+#include "tests/source_dir.h"
+#include "tests/systems/harness.h"
+
+using namespace flyball;
+using namespace flyball::test;
+
+namespace {
+
+Model shipped(const std::string& path) { return load_model(source_dir() + "/models/" + path); }
+
+/// Sets of one parameter each.
+std::vector<ParameterSet> sweep(const Model& model, const std::string& name,
+                                const std::vector<double>& values) {
+  const int slot = settable_parameter(*model.plan, name);
+  std::vector<ParameterSet> sets;
+  for (const double value : values) sets.push_back({{slot, value}});
+  return sets;
+}
+
+std::vector<LaneOutcome> run_lanes(const Model& model, const std::vector<ParameterSet>& sets,
+                                   const LaneOptions& options = {}) {
+  return run_in_lanes(model.plan, model.settings, sets, options);
+}
+
+std::vector<double> alone(const Model& model, const ParameterSet& set) {
+  Simulator simulator(model.plan, model.settings, {false});
+  for (const auto& [slot, value] : set) simulator.set_parameter(model.plan->slot_name(slot), value);
+  simulator.run();
+  return simulator.workspace().values;
+}
+
+/// Largest difference of a state from that of the same run alone, over 1 and the size of the state.
+double difference(const Model& model, const LaneOutcome& outcome, const ParameterSet& set) {
+  const std::vector<double> expected = alone(model, set);
+  double largest = 0.0;
+  for (int k = model.plan->layout.first_state; k < model.plan->layout.first_held; ++k) {
+    const double scale = std::max(1.0, std::fabs(expected[k]));
+    largest = std::max(largest, std::fabs(outcome.values[k] - expected[k]) / scale);
+  }
+  return largest;
+}
+
+/// At a tolerance of 1e-9 a step; both runs make a few hundred steps, so that they differ by less than 1e-6.
+void check_against_single_runs(Model model, const std::vector<ParameterSet>& sets) {
+  model.settings.rtol = 1e-9;
+  model.settings.atol = 1e-11;
+  const auto outcomes = run_lanes(model, sets);
+  REQUIRE(outcomes.size() == sets.size());
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    INFO("run " << k);
+    CHECK(outcomes[k].error.empty());
+    CHECK_FALSE(outcomes[k].alone);
+    CHECK(difference(model, outcomes[k], sets[k]) < 1e-6);
+  }
+}
+
+/// Each lane switches its source at a time of its own.
+constexpr const char* steps_at_times = R"(
+flyball = 1
+[parameters]
+when = 0.3
+[blocks]
+r = { type = "Step", time = "when" }
+x = { type = "TransferFcn", denominator = [0.2, 1.0] }
+hold = { type = "ZeroOrderHold", sample_time = "0.25 s" }
+sum = { type = "Integrator" }
+[diagram]
+wires = ["r -> x -> hold -> sum"]
+log = ["x", "sum"]
+[simulation]
+stop = "1 s"
+)";
+
+/// x' = gain x^2 escapes at t = 1/gain.
+constexpr const char* escapes = R"(
+flyball = 1
+[parameters]
+gain = 0.1
+[blocks]
+x = { type = "Integrator", initial = 1.0 }
+square = { type = "Product" }
+g = { type = "Gain", gain = "gain" }
+[diagram]
+wires = ["x -> square.u1", "x -> square.u2", "square -> g -> x"]
+log = ["x"]
+[simulation]
+stop = "2 s"
+)";
+
+}  // namespace
+
+TEST_CASE("Equal runs in lockstep have the bits of one run") {
+  // Not affine in the states, so that a single run calls its blocks as lanes do; and chaotic,
+  // so that one bit shows.
+  Model model = shipped("classic/lorenz.toml");
+  model.settings.method = "dp5";
+  for (const auto& outcome : run_lanes(model, std::vector<ParameterSet>(lane_count))) {
+    CHECK(outcome.values == alone(model, {}));
+  }
+}
+
+TEST_CASE("Lanes agree with single runs: relations that switch at different times") {
+  const Model model = shipped("benchmarks/sweep.toml");
+  std::vector<ParameterSet> sets;
+  for (int i = 0; i < 7; ++i) {
+    sets.push_back({{settable_parameter(*model.plan, "Kp"), 2.0 + 0.8 * i},
+                    {settable_parameter(*model.plan, "wn"), 1.0 + 0.2 * i}});
+  }
+  check_against_single_runs(model, sets);
+}
+
+TEST_CASE("Lanes agree with single runs: crossings and handlers of each lane") {
+  Model ball = shipped("classic/bouncing_ball.toml");
+  ball.settings.stop = 1.5;  // before the bounces of the softest ball pile up
+  check_against_single_runs(ball, sweep(ball, "ball.restitution", {0.8, 0.7, 0.75, 0.6, 0.65}));
+  Model relay = shipped("benchmarks/relay.toml");
+  relay.settings.stop = 20.0;
+  check_against_single_runs(relay, sweep(relay, "relay.switch_on", {0.6, 0.62, 0.58, 0.7}));
+}
+
+TEST_CASE("Lanes agree with single runs: hits in common, alarms of each lane") {
+  const Model model = read_model(steps_at_times);
+  check_against_single_runs(model, sweep(model, "when", {0.3, 0.25, 0.5, 0.71, 2.0}));
+}
+
+TEST_CASE("Lanes agree with single runs: sampled controllers of two rates") {
+  const Model model = shipped("classic/two_rate_loop.toml");
+  check_against_single_runs(model, std::vector<ParameterSet>(3));
+}
+
+TEST_CASE("The rows of a lane are those of the single run") {
+  const Model model = read_model(steps_at_times);
+  const auto sets = sweep(model, "when", {0.3, 0.2, 0.5, 0.71});
+  LaneOptions options;
+  options.log.enabled = true;
+  const auto outcomes = run_lanes(model, sets, options);
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    Simulator single(model.plan, model.settings);
+    single.set_parameter("when", sets[k][0].second);
+    single.run();
+    REQUIRE(outcomes[k].log->rows() == single.log().rows());
+    for (std::int64_t row = 0; row < single.log().rows(); ++row) {
+      REQUIRE(outcomes[k].log->time(row) == single.log().time(row));
+      // The error of both: a hundred steps at 1e-6.
+      for (int c = 0; c < 2; ++c)
+        REQUIRE(std::fabs(outcomes[k].log->value(row, c) - single.log().value(row, c)) < 1e-4);
+    }
+  }
+}
+
+TEST_CASE(
+    "Lanes give the same bits on any number of threads, with any "
+    "instruction set") {
+  const Model model = shipped("benchmarks/sweep.toml");
+  std::vector<double> gains;
+  for (int i = 0; i < 4 * lane_count + 1; ++i) gains.push_back(1.0 + 0.5 * i);
+  const auto sets = sweep(model, "Kp", gains);
+  const auto expected = run_lanes(model, sets, {.isa = Isa::baseline});
+  const auto threaded = run_lanes(model, sets, {.threads = 3, .isa = widest_isa()});
+  for (std::size_t k = 0; k < sets.size(); ++k) CHECK(threaded[k].values == expected[k].values);
+}
+
+TEST_CASE("A lane that fails is run alone, and the others go on") {
+  const Model model = read_model(escapes);
+  const auto sets = sweep(model, "gain", {0.1, 1.0, 0.2, 0.3});
+  const auto outcomes = run_lanes(model, sets);
+  std::string reason;
+  try {
+    alone(model, sets[1]);
+  } catch (const SimulationError& error) {
+    reason = error.what();
+  }
+  REQUIRE_FALSE(reason.empty());
+  CHECK(outcomes[1].error == reason);
+  CHECK(outcomes[1].alone);
+  for (const int k : {0, 2, 3}) {
+    CHECK_FALSE(outcomes[k].alone);
+    CHECK(difference(model, outcomes[k], sets[k]) < 1e-4);  // two hundred steps at 1e-6
+  }
+}
+
+TEST_CASE("What cannot run in lockstep runs one by one") {
+  Model model = shipped("benchmarks/sweep.toml");
+  CHECK(refuses_lanes(*model.plan, model.settings).empty());
+  model.settings.method = "bdf";
+  CHECK(refuses_lanes(*model.plan, model.settings) == "lanes run with the method dp5, not with bdf");
+  const auto sets = sweep(model, "Kp", {3.0, 4.0});
+  const auto outcomes = run_lanes(model, sets);
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    CHECK(outcomes[k].alone);
+    CHECK(outcomes[k].values == alone(model, sets[k]));
+  }
+  const Model stateless = read_model(R"(
+flyball = 1
+[blocks]
+clock = { type = "Clock" }
+[diagram]
+log = ["clock"]
+[simulation]
+stop = "1 s"
+)");
+  CHECK(refuses_lanes(*stateless.plan, stateless.settings) == "there are no states to integrate");
+}
+
+TEST_CASE("Parameters of lanes are checked as those of a run") {
+  const Model model = shipped("classic/bouncing_ball.toml");
+  CHECK_THROWS_WITH(run_lanes(model, sweep(model, "ball.restitution", {0.5, 1.5})),
+                    "ball.restitution is 1.5, outside its range [0, 1]");
+  CHECK_THROWS_WITH(sweep(model, "ball.mass", {1.0}), "there is no parameter ball.mass");
+}
