@@ -63,6 +63,7 @@ struct KernelTable {
   Kernels<double> on_double;
   Kernels<Jet> on_jet;
   Kernels<Dependency> on_dependency;
+  Kernels<Dimensional> on_dimensional;
 
   template <class T>
   const Kernels<T>& on() const {
@@ -70,8 +71,10 @@ struct KernelTable {
       return on_double;
     } else if constexpr (std::same_as<T, Jet>) {
       return on_jet;
-    } else {
+    } else if constexpr (std::same_as<T, Dependency>) {
       return on_dependency;
+    } else {
+      return on_dimensional;
     }
   }
 };

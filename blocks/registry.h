@@ -26,6 +26,11 @@ struct BlockObject {
   /// values stand still.
   std::vector<bool> affine;
   std::vector<bool> rate_affine;
+  /// What the equations demand of units; slot s is unknown `slot_unknown(s)`, a literal of a formula the one
+  /// that Formula says. Found by running the equations on Dimensional; empty for a block on double alone.
+  std::vector<DimensionEquation> dimensions;
+
+  static int slot_unknown(int slot) { return base_units + slot; }
 };
 
 /// One line of the catalogue.
@@ -67,6 +72,7 @@ BlockType describe(std::string name, std::string family) {
   if constexpr (kernel::differentiable<B>()) {
     type.kernels.on_jet = kernel::compile<B, Jet>();
     type.kernels.on_dependency = kernel::compile<B, Dependency>();
+    type.kernels.on_dimensional = kernel::compile<B, Dimensional>();
   } else {
     type.kernels.on_jet = kernel::compile_shim<B>();
   }

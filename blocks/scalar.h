@@ -7,13 +7,14 @@
 #include <type_traits>
 
 #include "blocks/dependency.h"
+#include "blocks/dimensional.h"
 
 namespace flyball {
 
 /// A value with its derivatives along four directions (three parameters and time, or four Jacobian columns).
 using Jet = ceres::Jet<double, 4>;
 
-// Equations call these without a qualifier: double finds std's, Jet and Dependency their own.
+// Equations call these without a qualifier: double finds std's, Jet, Dependency and Dimensional their own.
 using std::acos;
 using std::asin;
 using std::atan;
