@@ -4,6 +4,25 @@
 
 namespace flyball {
 
+std::optional<LinearForm> LinearForm::sum(std::vector<Term> terms) {
+  std::ranges::sort(terms, {}, &Term::unknown);
+  std::size_t last = 0;
+  for (std::size_t k = 1; k < terms.size(); ++k) {
+    if (terms[k].unknown != terms[last].unknown) {
+      terms[++last] = terms[k];
+      continue;
+    }
+    const auto total = flyball::add(terms[last].coefficient, terms[k].coefficient);
+    if (!total) return std::nullopt;
+    terms[last].coefficient = *total;
+  }
+  if (!terms.empty()) terms.resize(last + 1);
+  std::erase_if(terms, [](const Term& term) { return term.coefficient.numerator() == 0; });
+  LinearForm result;
+  result.terms_ = std::move(terms);
+  return result;
+}
+
 Rational LinearForm::coefficient(int unknown) const {
   const auto found = std::ranges::lower_bound(terms_, unknown, {}, &Term::unknown);
   return found != terms_.end() && found->unknown == unknown ? found->coefficient : Rational(0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "blocks/rational.h"
@@ -19,6 +20,8 @@ class LinearForm {
 
   LinearForm() = default;
   explicit LinearForm(int unknown) : terms_{{unknown, Rational(1)}} {}
+  /// The sum of terms in any order; nothing when a number does not fit.
+  static std::optional<LinearForm> sum(std::vector<Term> terms);
 
   /// Ascending by unknown, without zeros.
   const std::vector<Term>& terms() const { return terms_; }

@@ -35,8 +35,8 @@ std::string product_text(const SignalEquations& equations, const LinearForm& for
     append_factor(divides ? below : above, name_of(equations, unknown), size);
     divisors += divides ? 1 : 0;
   }
-  if (above.empty()) above = "1";
-  if (divisors > 1) below = '(' + below + ')';
+  if (above.empty()) above += '1';
+  if (divisors > 1) below = fmt::format("({})", below);
   return divisors == 0 ? above : above + '/' + below;
 }
 
@@ -113,7 +113,8 @@ class Derivation {
       if (term.unknown >= base_units && !known_.contains(term.unknown)) subject = term.unknown;
     }
     LinearForm unit;
-    for (const auto& [unknown, exponent] : solved(equation.form, subject).terms()) {
+    const LinearForm rest = solved(equation.form, subject);
+    for (const auto& [unknown, exponent] : rest.terms()) {
       if (!unit.add(unknown < base_units ? LinearForm(unknown) : known_.at(unknown), exponent)) return;
     }
     const bool stated = equation.form.terms().size() == 1 || equation.kind == Kind::unit ||

@@ -162,11 +162,9 @@ void SignalEquations::add_equal(const Owner& owner, int a, int b) {
 }
 
 void SignalEquations::add(Kind kind, const Owner& owner, Terms terms, int subject) {
-  LinearForm form;
-  for (const auto& [unknown, coefficient] : terms) {
-    if (!form.add(LinearForm(unknown), coefficient)) return;
-  }
-  if (!form.zero()) equations_.push_back({kind, std::move(form), owner.instance, owner.parameter, subject});
+  auto form = LinearForm::sum(std::move(terms));
+  if (form && !form->zero())
+    equations_.push_back({kind, *std::move(form), owner.instance, owner.parameter, subject});
 }
 
 std::pair<int, int> SignalEquations::slot_of(int unknown) const {
