@@ -142,7 +142,8 @@ double complexity(const LinearForm& unit) {
   return sum;
 }
 
-/// A correction most often makes a unit simpler.
+/// What was written with a unit is suspected before a factor that was written without one, and a correction
+/// most often makes a unit simpler.
 auto rank(const SignalEquations& equations, const Suspect& suspect) {
   const bool from_file = equations.position(equations.all()[suspect.equation].subject).line > 0;
   const double needed = complexity(suspect.needed);

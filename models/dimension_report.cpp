@@ -13,7 +13,9 @@ namespace {
 using Kind = SignalEquation::Kind;
 
 std::string name_of(const SignalEquations& equations, int unknown) {
-  return unknown < base_units ? message::unit_text(LinearForm(unknown)) : equations.name(unknown);
+  if (unknown < base_units) return message::unit_text(LinearForm(unknown));
+  const auto literal = equations.literal(unknown);
+  return literal ? fmt::format("{}", *literal) : equations.name(unknown);
 }
 
 void append_factor(std::string& product, const std::string& name, const Rational& exponent) {
@@ -29,7 +31,12 @@ void append_factor(std::string& product, const std::string& name, const Rational
 std::string product_text(const SignalEquations& equations, const LinearForm& form) {
   std::string above, below;
   int divisors = 0;
-  for (const auto& [unknown, exponent] : form.terms()) {
+  auto terms = form.terms();
+  const auto is_literal = [&](const auto& term) {
+    return term.unknown >= base_units && equations.literal(term.unknown).has_value();
+  };
+  std::ranges::stable_partition(terms, is_literal);
+  for (const auto& [unknown, exponent] : terms) {
     const bool divides = exponent.numerator() < 0;
     const Rational size = divides ? subtract(Rational(0), exponent).value_or(exponent) : exponent;
     append_factor(divides ? below : above, name_of(equations, unknown), size);
@@ -153,7 +160,11 @@ std::string equation_text(const SignalEquations& equations, const SignalEquation
     case Kind::equal:
       break;
   }
-  return fmt::format("{} = {}", name, product_text(equations, rest));
+  if (rest.zero() || rest.terms().back().unknown < base_units) return message::is_in_unit(name, rest);
+  const std::string text = fmt::format("{} = {}", name, product_text(equations, rest));
+  const bool says_whose =
+      equation.instance < 0 || equation.subject >= 0 || equations.is_result(subject, equation);
+  return says_whose ? text : fmt::format("{}: {}", equations.owner(equation), text);
 }
 
 void report_conflict(const SignalEquations& equations, const Conflict& conflict, Diagnostics& diagnostics) {

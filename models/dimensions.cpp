@@ -111,13 +111,15 @@ void check_dimensions(Diagram& diagram, Diagnostics& diagnostics) {
   Analysis analysis(diagram);
   analysis.report(diagnostics);
   if (diagnostics.failed()) return;
+  const std::vector<Diagnostic> notes = analysis.notes();
+  // Without any unit a hidden factor most often means that time is scaled, too: seconds would be a guess.
+  if (!analysis.has_units() && !notes.empty()) return;
+  for (const Diagnostic& note : notes) diagnostics.note(note.at, note.message);
   for (Logged& logged : diagram.logged) {
     if (logged.unit != "any") continue;
     const std::string unit = analysis.unit(logged.source);
     if (!unit.empty()) logged.unit = unit;
   }
-  if (!analysis.has_units()) return;
-  for (const Diagnostic& note : analysis.notes()) diagnostics.note(note.at, note.message);
 }
 
 DimensionTable dimension_table(const Diagram& diagram) {

@@ -85,7 +85,8 @@ void SignalEquations::read_instance(int instance) {
       terms.push_back({global, coefficient});
       if (is_slot && object.specification->slots[slot].kind == SlotKind::state) state = global;
     }
-    add(kind_of(equation.kind), owner, terms, state);
+    const Kind kind = kind_of(equation.kind);
+    add(kind, owner, terms, kind == Kind::rate ? state : -1);
   }
   for (const PassThrough& passed : object.specification->passed) {
     add_equal(owner, unknown(instance, passed.output), unknown(instance, passed.input));
@@ -138,7 +139,8 @@ void SignalEquations::read_binding(const Owner& owner, int unknown, const Bindin
     for (auto& term : terms) {
       if (term.unknown < 0) term.unknown = first_literal + Formula::literal_unknown(term.unknown);
     }
-    add(kind_of(equation.kind), owner, std::move(terms));
+    const bool is_value = equation.form.coefficient(unknown).numerator() != 0;
+    add(kind_of(equation.kind), owner, std::move(terms), is_value ? unknown : -1);
   }
 }
 
@@ -203,6 +205,10 @@ std::string SignalEquations::slot_name(int instance, int slot) const {
   if (shown->elements.empty()) return port;
   const auto element = std::ranges::find(shown->slots, slot) - shown->slots.begin();
   return fmt::format("{}.{}", port, shown->elements[element]);
+}
+
+std::optional<double> SignalEquations::literal(int unknown) const {
+  return unknown < first_literal_ ? std::nullopt : std::optional(literals_[unknown - first_literal_].value);
 }
 
 std::string SignalEquations::name(int unknown) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct SignalEquation {
   LinearForm form;  // is zero
   int instance = -1;
   int parameter = -1;  // of the model, where there is no instance
-  int subject = -1;    // declared, unit, literal: the unknown; rate: that of the state
+  int subject = -1;    // declared, unit, literal: the unknown; rate: that of the state; formula: its value
 };
 
 /// The equations of a diagram on the dimension scalar. A wire, a parameter and a value without unit are one
@@ -50,6 +51,8 @@ class SignalEquations {
   // For messages.
   std::string owner(const SignalEquation& equation) const;
   std::string name(int unknown) const;
+  /// The value of a literal in a formula; nothing for another unknown.
+  std::optional<double> literal(int unknown) const;
   /// Where the value of a parameter or literal stands, or the block of a signal. Line 0: in an override.
   Position position(int unknown) const;
   Position position(const SignalEquation& equation) const;

@@ -70,23 +70,23 @@ std::string content(const fs::path& path) {
 }  // namespace
 
 TEST_CASE("a unit goes on along wires, through products, rates and choices") {
-  CHECK(units_in(model("V = \"2 m/s\"", R"(
+  CHECK(units_in(model("V = \"2 m/s\"", R"toml(
 speed = { type = "Constant", value = "V" }
 way   = { type = "Integrator" }
 half  = { type = "Gain", gain = 0.5 }
 area  = { type = "Product" }
 side  = { type = "Expression", inputs = ["A"], formula = "sqrt(A)" }
-limit = { type = "Saturation" })",
+limit = { type = "Saturation" })toml",
                        R"("speed -> way -> area.u1, half", "way -> area.u2", "area -> side -> limit")")) ==
         "speed m/s, way m, half -, area m^2, side m, limit m, V m/s");
 }
 
 TEST_CASE("a value without unit takes the one that the others leave for it") {
-  CHECK(units_in(model("K = 0.5\nH = \"1 m\"\nw = \"2 1/s\"", R"(
+  CHECK(units_in(model("K = 0.5\nH = \"1 m\"\nw = \"2 1/s\"", R"toml(
 x    = { type = "Integrator", initial = "H" }
 gain = { type = "Gain", gain = "K" }
 rate = { type = "Gain", gain = "-w" }
-sum  = { type = "Sum" })",
+sum  = { type = "Sum" })toml",
                        R"("x -> gain -> sum.u1", "x -> rate -> sum.u2", "sum -> x")")) ==
         "x m, gain m/s, rate m/s, sum m/s, K 1/s, H m, w 1/s");
 }
@@ -111,45 +111,45 @@ TEST_CASE("a literal factor is a number, an added literal has the other's unit, 
 }
 
 TEST_CASE("a factor that hides a unit is noted where the model has no units") {
-  CHECK(units_in(model("", R"(
+  CHECK(units_in(model("", R"toml(
 loss = { type = "Sum", signs = "+-" }
 one  = { type = "Constant" }
-x    = { type = "Integrator" })",
+x    = { type = "Integrator" })toml",
                        R"("one -> loss.u1", "x -> loss.u2", "loss -> x")")) ==
         "loss -, one -, x -\nthe rate of x hides a factor in 1/s: it cannot be x/s");
-  CHECK(units_in(model("", R"(
+  CHECK(units_in(model("", R"toml(
 angle  = { type = "Integrator" }
 speed  = { type = "Integrator" }
-torque = { type = "Expression", inputs = ["a"], formula = "-9.81*sin(a)"
-})",
+torque = { type = "Expression", inputs = ["a"], formula = "-9.81*sin(a)" })toml",
                        R"("angle -> torque -> speed -> angle")")) ==
         "angle 1, speed 1/s, torque 1/s^2\n"
         "9.81 in torque hides a factor in 1/s^2: as a plain number it contradicts the other equations");
 }
 
 TEST_CASE("where neither a literal nor a rate is in the way, the demand of a block is left out") {
-  const std::string text = model("", R"(
+  const std::string text = model("", R"toml(
 clock = { type = "Clock" }
-wave  = { type = "Expression", formula = "sin(u)" })", R"("clock -> wave")");
+wave  = { type = "Expression", formula = "sin(u)" })toml",
+                                 R"("clock -> wave")");
   CHECK(said_about(text).empty());
-CHECK(units_in(text) ==
-      "clock s, wave 1\na factor with a unit is hidden: wave wants a plain number as clock");
+  CHECK(units_in(text) ==
+        "clock s, wave 1\na factor with a unit is hidden: wave wants a plain number as clock");
 }
 
 TEST_CASE("a hidden factor is noted by every check of a model with units") {
-  CHECK(said_about(model("V = \"2 V\"", R"(
+  CHECK(said_about(model("U = \"2 V\"", R"toml(
 loss = { type = "Sum", signs = "+-" }
-one  = { type = "Constant", value = "V" }
-x    = { type = "Integrator" })",
+one  = { type = "Constant", value = "U" }
+x    = { type = "Integrator" })toml",
                          R"("one -> loss.u1", "x -> loss.u2", "loss -> x")")) ==
         "m:8:1: note: the rate of x hides a factor in 1/s: it cannot be x/s\n");
 }
 
 TEST_CASE("logged signals get the unit that is found") {
-  const Diagram diagram = diagram_of(model("V = \"2 m/s\"", R"(
+  const Diagram diagram = diagram_of(model("V = \"2 m/s\"", R"toml(
 speed = { type = "Constant", value = "V" }
 way   = { type = "Integrator" }
-half  = { type = "Gain", gain = 0.5 })",
+half  = { type = "Gain", gain = 0.5 })toml",
                                            R"("speed -> way -> half"]
 log = ["speed", "way", "half")"));
   REQUIRE(diagram.logged.size() == 3);
@@ -175,7 +175,7 @@ TEST_CASE("mistakes that are independent are all reported at once") {
   text.replace(text.find("2 MJ/K"), 6, "2 MJ");
   const std::string said = said_about(text);
   CHECK_THAT(said, Catch::Contains("error: d is in W, but"));
-  CHECK_THAT(said, Catch::Contains("error: C is in N*m, but"));
+  CHECK_THAT(said, Catch::Contains("error: C is in J, but"));
 }
 
 TEST_CASE("exponents that do not fit are left out of the check") {

@@ -1,7 +1,6 @@
 // One unit of a working model is written wrong; the message names it first, or second behind a unit that
 // would settle the diagram as well.
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -126,14 +125,14 @@ const std::vector<Mistake>& mistakes() {
       {servo, "21 V", "21 A", "Kp"},
       {servo, "500 V/s", "500 V", "Ki"},
       {servo, "0.15 V*s", "0.15 V", "Kd"},
-      {servo, "12 V", "12 A", "U"},
+      {servo, "\"12 V", "\"12 A", "U"},
       {servo, "5 mN*m", "5 mN", "T"},
       {cascade, "2 ohm", "2 V", "R"},
       {cascade, "1 mH", "1 mF", "L"},
       {cascade, "0.05 N*m/A", "0.05 N*m*s", "K"},
       {cascade, "5e-5 kg*m^2", "5e-5 kg*m", "J"},
       {cascade, "1e-5 N*m*s", "1e-5 N*m", "b"},
-      {cascade, "100 rad/s", "100 rad", "w_wanted.value"},
+      {cascade, "\"100 rad/s", "\"100 rad", "w_wanted.value"},
       {cascade, "0.1 A*s", "0.1 A", "w_control.Kp"},
       {cascade, "4000 V/(A*s)", "4000 V/A", "i_control.Ki"},
       {cascade, "-5 A", "-5 V", "w_control.lower"},
@@ -201,7 +200,8 @@ TEST_CASE("a unit that is written wrong is found, first or second") {
     CHECK(names.size() > static_cast<std::size_t>(place));
     first += place == 0 ? 1 : 0;
   }
-  WARN(fmt::format("{} of {} named first", first, mistakes().size()));
+  // The others have a rival that would settle the diagram as well, with a unit that is no odder.
+  CHECK(first >= 37);
 }
 
 }  // namespace flyball
