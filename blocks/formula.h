@@ -50,7 +50,7 @@ struct Formula {
   struct Node {
     Op op = Op::literal;
     int offset = 0;                           // where it stands in the text, from 0
-    int index = 0;                            // operand or comparison number
+    int index = 0;                            // number of the operand, comparison or literal
     double value = 0.0;                       // literal, SI
     std::optional<Rational> exact;            // literal as an exact fraction, where its text and unit allow
     std::optional<Dimension> dimension;       // literal that was written with a unit
@@ -69,12 +69,32 @@ struct Formula {
     return value<T>(static_cast<int>(nodes.size()) - 1, operand, compare);
   }
 
+  /// Numbers the literals from `first` on, and gives the number behind the last.
+  int number_literals(int first);
+  /// The unknown of Dimensional that literal k is: literals count downwards, below the base units.
+  static int literal_unknown(int k) { return -1 - k; }
+
  private:
+  template <class T>
+  static T literal(const Node& node) {
+    if constexpr (std::is_same_v<T, Dimensional>) {
+      return Dimensional::literal(node.value, literal_unknown(node.index), node.dimension.has_value());
+    } else {
+      return T(node.value);
+    }
+  }
   template <class T>
   T value(int at, auto& operand, auto& compare) const;
   template <class T>
   Bit<T> condition(int at, auto& operand, auto& compare) const;
 };
+
+inline int Formula::number_literals(int first) {
+  for (Node& node : nodes) {
+    if (node.op == Op::literal) node.index = first++;
+  }
+  return first;
+}
 
 template <class T>
 T Formula::value(int at, auto& operand, auto& compare) const {
@@ -82,7 +102,7 @@ T Formula::value(int at, auto& operand, auto& compare) const {
   const auto arg = [&](int k) { return value<T>(node.argument[k], operand, compare); };
   switch (node.op) {
     case Op::literal:
-      return T(node.value);
+      return literal<T>(node);
     case Op::operand:
       return operand(node.index);
     case Op::add:

@@ -66,6 +66,7 @@ struct KernelTable {
   Kernels<Dependency> on_dependency;
   Kernels<Lanes<Isa::baseline>> on_baseline_lanes;
   Kernels<Lanes<Isa::avx2>> on_avx2_lanes;  // empty where the machine does not support it
+  Kernels<Dimensional> on_dimensional;
 
   template <class T>
   const Kernels<T>& on() const {
@@ -77,8 +78,10 @@ struct KernelTable {
       return on_baseline_lanes;
     } else if constexpr (std::same_as<T, Lanes<Isa::avx2>>) {
       return on_avx2_lanes;
-    } else {
+    } else if constexpr (std::same_as<T, Dependency>) {
       return on_dependency;
+    } else {
+      return on_dimensional;
     }
   }
 };

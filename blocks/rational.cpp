@@ -1,5 +1,6 @@
 #include "blocks/rational.h"
 
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -26,11 +27,14 @@ std::optional<Rational> reduced(Wide numerator, Wide denominator) {
     numerator = -numerator;
     denominator = -denominator;
   }
-  const Wide divisor = gcd(numerator, denominator);
-  numerator /= divisor;
-  denominator /= divisor;
   constexpr Wide most = std::numeric_limits<std::int64_t>::max();
+  if (denominator > 1) {
+    const Wide divisor = gcd(numerator, denominator);
+    numerator /= divisor;
+    denominator /= divisor;
+  }
   if (numerator > most || numerator < -most || denominator > most) return std::nullopt;
+  if (denominator == 1) return Rational(static_cast<std::int64_t>(numerator));
   return Rational::fraction(static_cast<std::int64_t>(numerator), static_cast<std::int64_t>(denominator));
 }
 
@@ -65,6 +69,19 @@ std::optional<Rational> multiply(const Rational& a, const Rational& b) {
 
 std::optional<Rational> divide(const Rational& a, const Rational& b) {
   return reduced(Wide(a.numerator()) * b.denominator(), Wide(a.denominator()) * b.numerator());
+}
+
+std::optional<Rational> nearest_fraction(double x) {
+  constexpr double most = 1000.0;
+  if (!(std::abs(x) <= most)) return std::nullopt;
+  // A decimal or a quotient that was rounded to a double is off by half a unit in the last place.
+  const double tolerance = std::numeric_limits<double>::epsilon() * std::abs(x);
+  for (int denominator = 1; denominator <= static_cast<int>(most); ++denominator) {
+    const double numerator = std::round(x * denominator);
+    if (std::abs(numerator / denominator - x) > tolerance) continue;
+    return Rational::fraction(static_cast<std::int64_t>(numerator), denominator);
+  }
+  return std::nullopt;
 }
 
 std::optional<Rational> common_divisor(const Rational& a, const Rational& b) {

@@ -32,6 +32,10 @@ std::optional<Rational> subtract(const Rational& a, const Rational& b);
 std::optional<Rational> multiply(const Rational& a, const Rational& b);
 std::optional<Rational> divide(const Rational& a, const Rational& b);
 
+/// The fraction of small denominator that a double stands for: 0.3 for 3/10, 0.333… for 1/3. Nothing when
+/// there is none.
+std::optional<Rational> nearest_fraction(double x);
+
 /// Greatest common divisor of two non-negative fractions: the largest fraction that both are multiples of.
 std::optional<Rational> common_divisor(const Rational& a, const Rational& b);
 

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "blocks/dimension_equations.h"
+
 namespace flyball {
 namespace {
 
@@ -179,6 +181,7 @@ BlockObject BlockType::create(Settings* settings) const {
   check_declarations(*this, *object.specification);
   if (differentiable) {
     Deriver(*this, object).run(object);
+    object.dimensions = dimension_equations(*this, object);
   } else {
     assume_all_inputs(*object.specification, object);
   }

@@ -25,6 +25,11 @@ struct BlockObject {
   /// values stand still.
   std::vector<bool> affine;
   std::vector<bool> rate_affine;
+  /// What the equations demand of units; slot s is unknown `slot_unknown(s)`, a literal of a formula the one
+  /// that Formula says. Found by running the equations on Dimensional; empty for a block on double alone.
+  std::vector<DimensionEquation> dimensions;
+
+  static int slot_unknown(int slot) { return base_units + slot; }
 };
 
 /// One line of the catalogue.
@@ -71,6 +76,7 @@ BlockType describe(std::string name, std::string family) {
   type.kernels.on_jet = jet_kernels<B>();
   if constexpr (kernel::differentiable<B>()) {
     type.kernels.on_dependency = kernel::compile<B, Dependency>();
+    type.kernels.on_dimensional = kernel::compile<B, Dimensional>();
   }
   type.construct = [](Settings* settings) -> std::shared_ptr<const Block> {
     std::shared_ptr<B> block;

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "blocks/dependency.h"
+#include "blocks/dimensional.h"
 
 namespace ceres {
 template <class T, int N>
@@ -17,7 +18,7 @@ namespace flyball {
 /// Whoever computes with it includes blocks/jet.h, and Eigen with it; all others name it only.
 using Jet = ceres::Jet<double, 4>;
 
-// Equations call these without a qualifier: double finds std's, Jet and Dependency their own.
+// Equations call these without a qualifier: double finds std's, Jet, Dependency and Dimensional their own.
 using std::acos;
 using std::asin;
 using std::atan;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "blocks/formula.h"
 #include "blocks/rational.h"
 
 namespace flyball {
@@ -100,10 +101,11 @@ struct Specification {
   std::vector<PortSpec> ports;
   std::vector<StructureSpec> structure;
   std::vector<PassThrough> passed;
-  std::vector<SlotSpec> absent;    // what other structure would declare
-  std::optional<Rational> period;  // of a sampled block
-  Rational offset;                 // its first hit
-  bool refused = false;            // a structural mistake was reported: the equations must not run
+  std::vector<Formula::Node> literals;  // of the block's formulas, by their number
+  std::vector<SlotSpec> absent;         // what other structure would declare
+  std::optional<Rational> period;       // of a sampled block
+  Rational offset;                      // its first hit
+  bool refused = false;                 // a structural mistake was reported: the equations must not run
 
   bool sampled() const { return period.has_value(); }
   int count(SlotKind kind) const;

@@ -165,7 +165,12 @@ std::shared_ptr<const Formula> Block::formula(const std::string& key, const std:
   spec_.structure.push_back({key, fmt::format("\"{}\"", fallback_input), std::move(doc), {}});
   std::shared_ptr<const Formula> read;
   if (given(key)) read = settings_->formula(key, inputs);
-  return read != nullptr ? read : identity(fallback_input);
+  if (read == nullptr) return identity(fallback_input);
+  auto numbered = std::make_shared<Formula>(*read);
+  numbered->number_literals(static_cast<int>(spec_.literals.size()));
+  std::ranges::copy_if(numbered->nodes, std::back_inserter(spec_.literals),
+                       [](const Formula::Node& node) { return node.op == Formula::Op::literal; });
+  return numbered;
 }
 
 }  // namespace flyball

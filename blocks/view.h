@@ -69,6 +69,8 @@ class View {
   Bit<T> on(Relation r) const {
     if constexpr (std::is_same_v<T, Dependency>) {
       return {Dependency::on(index_[r.slot])};
+    } else if constexpr (std::is_same_v<T, Dimensional>) {
+      return false;
     } else {
       return Bit<T>(frame_.bits[index_[r.slot] - frame_.first_relation]);
     }
@@ -78,6 +80,8 @@ class View {
   Bit<T> on(Held h) const {
     if constexpr (std::is_same_v<T, Dependency>) {
       return {value(h)};
+    } else if constexpr (std::is_same_v<T, Dimensional>) {
+      return false;
     } else {
       return nonzero(value(h));
     }

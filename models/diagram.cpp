@@ -14,6 +14,7 @@
 #include "models/diagram_report.h"
 #include "models/diagram_simulation.h"
 #include "models/diagram_wires.h"
+#include "models/dimensions.h"
 #include "models/language/messages.h"
 
 namespace flyball {
@@ -134,6 +135,7 @@ std::optional<Diagram> read_diagram(std::string_view text, Diagnostics& diagnost
   if (!document) return std::nullopt;
   apply_overrides(overrides, document->root(), diagnostics);
   Diagram diagram = DiagramReader(*document, overrides, diagnostics).read();
+  if (!diagnostics.failed()) check_dimensions(diagram, diagnostics);
   return diagnostics.failed() ? std::nullopt : std::optional(std::move(diagram));
 }
 

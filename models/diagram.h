@@ -17,6 +17,7 @@ struct Binding {
 
   Kind kind = Kind::literal;
   double value = 0.0;                      // literal, SI
+  std::optional<Dimension> unit;           // literal that was written with a unit
   int parameter = -1;                      // index into Diagram::parameters: same slot, no copy
   std::shared_ptr<const Formula> formula;  // operand k is the parameter operands[k]
   std::vector<int> operands;
@@ -28,7 +29,8 @@ struct Parameter {
   std::string name;
   Binding binding;
   Range range;
-  std::string unit;  // as declared, "any" without one
+  std::string unit;                   // as declared, "any" without one
+  std::optional<Dimension> declared;  // by `unit`, besides what its value says
   std::string doc;
   bool structural = false;  // it fixed a shape or a sample time: changing it takes a new diagram
 };

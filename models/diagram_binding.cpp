@@ -70,10 +70,12 @@ std::optional<Binding> ModelParameters::bind(const TomlValue& value, const Formu
   try {
     std::vector<Quantity> quantities;
     for (const int operand : binding.operands) quantities.push_back(entries_[operand].quantity);
-    if (const auto wrong = misfit(infer(formula, quantities), unit)) {
+    const Quantity found = infer(formula, quantities);
+    if (const auto wrong = misfit(found, unit)) {
       report_.error_inside(value, 0, *wrong);
       return std::nullopt;
     }
+    if (found.known()) binding.unit = found.dimension;
   } catch (const TextError& error) {
     report_.error_inside(value, error.offset(), error.what());
     return std::nullopt;
@@ -95,6 +97,8 @@ std::optional<Binding> ModelParameters::bind(const TomlValue& value, const Formu
     binding.kind = Binding::Kind::formula;
     binding.formula = std::make_shared<const Formula>(formula);
   }
+  // What is computed from parameters has the units that they bring along.
+  if (binding.kind != Binding::Kind::literal) binding.unit.reset();
   return binding;
 }
 

@@ -68,9 +68,10 @@ void ModelParameters::declare_table(const TomlEntry& entry, Entry& result) {
 void ModelParameters::declare_unit(const TomlValue& unit, Entry& result) {
   if (!report_.expect(unit, TomlValue::Kind::string, "a unit in quotes")) return;
   try {
-    const bool si = parse_unit(unit.text).si();
-    if (!si) report_.error(unit, message::unit_not_si(unit.text, parse_unit(unit.text).dimension));
-    if (si) result.parameter.unit = unit.text;
+    const Unit declared = parse_unit(unit.text);
+    if (!declared.si()) return report_.error(unit, message::unit_not_si(unit.text, declared.dimension));
+    result.parameter.unit = unit.text;
+    result.parameter.declared = declared.dimension;
   } catch (const TextError& error) {
     report_.error_inside(unit, error.offset(), error.what());
   }

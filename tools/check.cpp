@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
+#include "models/dimensions.h"
 #include "studies/file.h"
 #include "tools/commands.h"
 #include "tools/console.h"
@@ -29,6 +33,26 @@ void add_notes(ModelFile& model) {
   }
 }
 
+void append_units(std::string& lines, std::string_view heading, const std::vector<NamedUnit>& units) {
+  if (units.empty()) return;
+  std::size_t width = heading.size();
+  for (const NamedUnit& named : units) width = std::max(width, named.name.size());
+  fmt::format_to(std::back_inserter(lines), "\n  {:<{}}  unit\n", heading, width);
+  for (const auto& [name, unit] : units) {
+    fmt::format_to(std::back_inserter(lines), "  {:<{}}  {}\n", name, width, unit.empty() ? "-" : unit);
+  }
+}
+
+/// A line a signal and a parameter; "-" where the model does not determine the unit, "1" for a plain number.
+std::string unit_lines(const DimensionTable& table) {
+  std::string lines;
+  append_units(lines, "signal", table.signals);
+  append_units(lines, "parameter", table.parameters);
+  if (!table.notes.empty()) lines += '\n';
+  for (const Diagnostic& note : table.notes) lines += to_string(note) + '\n';
+  return lines;
+}
+
 }  // namespace
 
 int check_command(const CheckOptions& options) {
@@ -49,9 +73,11 @@ int check_command(const CheckOptions& options) {
     if (model.plan) add_notes(model);
     complain(listing(model));
     errors += static_cast<std::size_t>(model.errors);
-    if (model.plan) lines += fmt::format("{}: ok: {}\n", name, counts(*model.plan));
+    if (!model.plan) continue;
+    lines += fmt::format("{}: ok: {}\n", name, counts(*model.plan));
+    if (options.units) lines += unit_lines(dimension_table(*model.plan->diagram));
   }
-  print(options.json ? check_json(models) : lines);
+  print(options.json ? check_json(models, options.units) : lines);
   if (errors > 0) complain(counted(errors, "error") + '\n');
   if (unreadable) return exit_input_output;
   return errors > 0 ? exit_model_error : exit_done;

@@ -115,8 +115,9 @@ CLI::App* add_check(CLI::App& app, CheckOptions& options) {
   CLI::App* command = app.add_subcommand("check", "Check models and list all that is wrong with them");
   command->add_option("MODEL", options.models, "Model files")->required()->type_name("FILE");
   add_overrides(command, options.overrides);
+  command->add_flag("--units", options.units, "Print the unit of every signal and parameter");
   command->add_flag("--json", options.json, "Print the findings as JSON");
-  command->footer("Example:\n  flyball check models/*/*.toml");
+  command->footer("Example:\n  flyball check models/*/*.toml\n  flyball check --units models/classic/pid_servo.toml");
   return command;
 }
 

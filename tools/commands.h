@@ -34,6 +34,7 @@ struct RunOptions {
 struct CheckOptions {
   std::vector<std::string> models;
   std::vector<Override> overrides;
+  bool units = false;
   bool json = false;
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "models/dimensions.h"
 #include "studies/graph.h"
 
 namespace flyball {
@@ -26,7 +27,24 @@ const char* name_of(Diagnostic::Severity severity) {
   return "";
 }
 
-Json model_json(const ModelFile& model) {
+Json diagnostic_json(const Diagnostic& d) {
+  return {{"severity", name_of(d.severity)},
+          {"file", d.file},
+          {"line", d.at.line},
+          {"column", d.at.column},
+          {"message", d.message}};
+}
+
+/// A unit that the model does not determine is null.
+Json units_json(const std::vector<NamedUnit>& units) {
+  Json json = Json::array();
+  for (const auto& [name, unit] : units) {
+    json.push_back({{"name", name}, {"unit", unit.empty() ? Json(nullptr) : Json(unit)}});
+  }
+  return json;
+}
+
+Json model_json(const ModelFile& model, bool units) {
   Json json = {{"file", model.name}, {"ok", model.plan != nullptr}};
   if (model.plan) {
     const Plan& plan = *model.plan;
@@ -37,12 +55,14 @@ Json model_json(const ModelFile& model) {
   }
   json["diagnostics"] = Json::array();
   for (const Diagnostic& d : model.diagnostics) {
-    json["diagnostics"].push_back({{"severity", name_of(d.severity)},
-                                   {"file", d.file},
-                                   {"line", d.at.line},
-                                   {"column", d.at.column},
-                                   {"message", d.message}});
+    json["diagnostics"].push_back(diagnostic_json(d));
   }
+  if (!units || !model.plan) return json;
+  const DimensionTable table = dimension_table(*model.plan->diagram);
+  json["signals"] = units_json(table.signals);
+  json["parameters"] = units_json(table.parameters);
+  json["notes"] = Json::array();
+  for (const Diagnostic& note : table.notes) json["notes"].push_back(diagnostic_json(note));
   return json;
 }
 
@@ -100,9 +120,9 @@ Json block_json(const BlockType& type) {
 
 }  // namespace
 
-std::string check_json(const std::vector<ModelFile>& models) {
+std::string check_json(const std::vector<ModelFile>& models, bool units) {
   Json json = {{"models", Json::array()}};
-  for (const ModelFile& model : models) json["models"].push_back(model_json(model));
+  for (const ModelFile& model : models) json["models"].push_back(model_json(model, units));
   return text_of(json);
 }
 

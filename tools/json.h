@@ -8,8 +8,9 @@
 
 namespace flyball {
 
-/// {"models": [{"file", "ok", "blocks", "states", "rates", "crossings", "diagnostics": […]}]}
-std::string check_json(const std::vector<ModelFile>& models);
+/// {"models": [{"file", "ok", "blocks", "states", "rates", "crossings", "diagnostics": […]}]}; with
+/// `units` also the signals and parameters with their units, and notes.
+std::string check_json(const std::vector<ModelFile>& models, bool units = false);
 
 /// {"blocks": [{"name", "type", "family", "rate"}], "wires": [{"from", "to"}], "order": [{"block",
 /// "computes"}]}

@@ -9,7 +9,7 @@
 namespace flyball {
 namespace {
 
-constexpr std::array<const char*, 7> base_units{"m", "kg", "s", "A", "K", "mol", "cd"};
+constexpr std::array<const char*, base_units> base_names{"m", "kg", "s", "A", "K", "mol", "cd"};
 
 template <class Combine>
 std::optional<Dimension> combined(const Dimension& a, const Dimension& b, Combine combine) {
@@ -70,7 +70,7 @@ std::string to_string(const Dimension& dimension) {
     if (exponent == 0) continue;
     std::string& side = exponent > 0 ? above : below;
     if (!side.empty()) side += '*';
-    side += base_units[k];
+    side += base_names[k];
     if (std::abs(exponent) > 1) side += fmt::format("^{}", std::abs(exponent));
     if (exponent < 0) ++divisors;
   }

@@ -28,7 +28,10 @@ class FormulaBuilder {
 
   const Formula::Node& node(int at) const { return formula_.nodes[at]; }
   /// The formula whose value is the node that was added last.
-  Formula finish() { return std::move(formula_); }
+  Formula finish() {
+    formula_.number_literals(0);
+    return std::move(formula_);
+  }
 
  private:
   int push(Formula::Node node);
