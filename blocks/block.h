@@ -71,6 +71,10 @@ class Block {
   StateLimits limits(State x, Param lower, Param upper);
   Held held(std::string name, double initial, std::string unit, std::string doc);
   Held held(std::string name, Param initial, std::string unit, std::string doc);
+  /// stem1, stem2, …: one for each of `initial`, 0 at the start where that is not declared.
+  States states(const std::string& stem, const std::vector<Param>& initial, std::string unit,
+                std::string doc);
+  Helds helds(const std::string& stem, const std::vector<Param>& initial, std::string unit, std::string doc);
 
   /// On while positive, off while negative; zero changes nothing.
   Relation relation(std::string name, std::string doc);
@@ -117,6 +121,9 @@ class Block {
   bool flag(const std::string& key, bool fallback, std::string doc);
   std::vector<std::string> list(const std::string& key, const std::vector<std::string>& fallback,
                                 std::string doc);
+  /// Whole numbers from `least` to `most`.
+  std::vector<int> counts(const std::string& key, const std::vector<int>& fallback, int least, int most,
+                          std::string doc);
   /// Parameters key[0], key[1], … (or key[0][1], …), one for each entry that is not a literal 0.
   Coefficients coefficients(const std::string& key, const std::vector<double>& fallback, std::string unit,
                             std::string doc);
@@ -139,6 +146,8 @@ class Block {
                   const std::vector<std::string>& units, const std::string& doc);
   int state_slot(SlotKind kind, std::string name, double initial, int initial_param, std::string unit,
                  std::string doc);
+  int state_slots(SlotKind kind, const std::string& stem, const std::vector<Param>& initial,
+                  const std::string& unit, const std::string& doc);
   Output aliased(std::string name, int slot, std::string doc);
   Coefficients declare_coefficients(const std::string& key, const Shape& shape,
                                     const std::vector<double>& fallback, bool one_row, std::string unit,

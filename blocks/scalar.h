@@ -21,6 +21,7 @@ using std::atan2;
 using std::cos;
 using std::cosh;
 using std::exp;
+using std::floor;
 using std::hypot;
 using std::log;
 using std::log10;

@@ -27,6 +27,7 @@ class Settings {
   virtual bool given(std::string_view key) const = 0;
   virtual std::optional<std::string> text(std::string_view key) = 0;
   virtual std::optional<long> integer(std::string_view key) = 0;
+  virtual std::optional<std::vector<long>> integers(std::string_view key) = 0;
   virtual std::optional<bool> flag(std::string_view key) = 0;
   /// A number, exactly, in SI; an expression makes its parameters structural.
   virtual std::optional<Rational> exact(std::string_view key) = 0;

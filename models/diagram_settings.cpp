@@ -63,6 +63,17 @@ std::optional<long> TableSettings::integer(std::string_view key) {
   return value->integer;
 }
 
+std::optional<std::vector<long>> TableSettings::integers(std::string_view key) {
+  const TomlValue* value = find(key, as_written);
+  if (value == nullptr || !report_.expect(*value, Kind::list, "a list of whole numbers")) return std::nullopt;
+  std::vector<long> result;
+  for (const TomlValue& item : value->items) {
+    if (!report_.expect(item, Kind::integer, "a whole number")) return std::nullopt;
+    result.push_back(item.integer);
+  }
+  return result;
+}
+
 std::optional<bool> TableSettings::flag(std::string_view key) {
   const TomlValue* value = find(key, as_written);
   if (value == nullptr || !report_.expect(*value, Kind::boolean, "true or false")) return std::nullopt;

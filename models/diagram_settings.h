@@ -22,6 +22,7 @@ class TableSettings : public Settings {
   bool given(std::string_view key) const override;
   std::optional<std::string> text(std::string_view key) override;
   std::optional<long> integer(std::string_view key) override;
+  std::optional<std::vector<long>> integers(std::string_view key) override;
   std::optional<bool> flag(std::string_view key) override;
   std::optional<Rational> exact(std::string_view key) override;
   std::optional<std::vector<std::string>> list(std::string_view key) override;

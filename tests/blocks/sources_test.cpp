@@ -59,4 +59,31 @@ TEST_CASE("PulseGenerator without delay is high from time 0 on, after one alarm"
   CHECK(d["edge"] == 0.5);
 }
 
+TEST_CASE("Ramp rises from its alarm on, not from its time on") {
+  Device d("Ramp", {{"slope", 3.0}, {"start", 2.0}, {"initial", -1.0}});
+  CHECK(d.update()["y"] == -1.0);
+  CHECK(d["begin"] == 2.0);
+  d.time(4.0);
+  CHECK(d.update()["y"] == -1.0);
+  d.handle(Phase::time);
+  CHECK(d.update()["y"] == 5.0);
+  CHECK(d["begin"] == never);
+}
+
+TEST_CASE("Chirp has the frequencies that it names") {
+  Device d(
+      "Chirp",
+      {{"amplitude", 2.0}, {"initial_frequency", 3.0}, {"target_time", 4.0}, {"target_frequency", 11.0}});
+  const auto y = [&](double t) {
+    d.time(t);
+    return d.update()["y"];
+  };
+  // The frequency is 3 + 2 t, its integral 3 t + t^2.
+  for (const double t : {0.0, 0.5, 4.0, 6.0}) {
+    INFO("t = " << t);
+    // Four roundings in a phase of at most 54.
+    CHECK(std::fabs(y(t) - 2.0 * std::sin(opaque(3.0 * t + t * t))) <= 2.0 * 4 * 54 * 0x1p-53);
+  }
+}
+
 }  // namespace flyball::test

@@ -91,4 +91,17 @@ TEST_CASE("coefficients are parameters, and a literal 0 is none") {
   CHECK(names == std::vector<std::string>{"numerator[0]", "denominator[0]", "denominator[2]"});
 }
 
+TEST_CASE("Selector picks elements that are there") {
+  CHECK(refusals("Selector", {{"width", 3.0}, {"indices", Numbers{1.0, 4.0}}}) ==
+        Refusals{"indices: expected whole numbers from 1 to 3, found 4"});
+  CHECK(refusals("Selector", {{"indices", Numbers{}}}) ==
+        Refusals{"indices: expected whole numbers from 1 to 2, found an empty list"});
+}
+
+TEST_CASE("Delay wants one initial value for each sample time of its length") {
+  CHECK(refusals("Delay",
+                 {{"sample_time", Rational(1)}, {"length", 3.0}, {"initial_values", Numbers{1.0, 2.0}}}) ==
+        Refusals{"initial_values: expected 3 numbers, as many as `length`, found 2"});
+}
+
 }  // namespace flyball::test

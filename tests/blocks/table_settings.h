@@ -30,6 +30,11 @@ class TableSettings : public Settings {
   bool given(std::string_view key) const override { return keys_.contains(key); }
   std::optional<std::string> text(std::string_view key) override { return get<std::string>(key); }
   std::optional<long> integer(std::string_view key) override { return get<double>(key); }
+  std::optional<std::vector<long>> integers(std::string_view key) override {
+    const auto numbers = get<Numbers>(key);
+    if (!numbers) return std::nullopt;
+    return std::vector<long>(numbers->begin(), numbers->end());
+  }
   std::optional<bool> flag(std::string_view key) override { return get<bool>(key); }
   std::optional<Rational> exact(std::string_view key) override { return get<Rational>(key); }
   std::optional<std::vector<std::string>> list(std::string_view key) override { return get<Words>(key); }
