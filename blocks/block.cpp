@@ -230,6 +230,19 @@ Held Block::held(std::string name, Param initial, std::string unit, std::string 
   return {state_slot(SlotKind::held, std::move(name), 0, initial.slot, std::move(unit), std::move(doc))};
 }
 
+Held Block::run_end(std::string name, RunEnd how, std::string reason) {
+  const Held end = held(std::move(name), 0.0, "1", std::move(reason));
+  spec_.slots[end.slot].end = how;
+  return end;
+}
+
+Param Block::random_stream() {
+  const Param stream = param("stream", 0.0, "1", any, "stream of random numbers");
+  spec_.slots[stream.slot].fixed = true;
+  spec_.slots[stream.slot].stream = true;
+  return stream;
+}
+
 Relation Block::relation(std::string name, std::string doc) {
   return {state_slot(SlotKind::relation, std::move(name), 0, -1, "any", std::move(doc))};
 }

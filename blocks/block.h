@@ -9,6 +9,7 @@
 #include "blocks/settings.h"
 #include "blocks/specification.h"
 #include "blocks/state_limits.h"
+#include "blocks/time_series.h"
 #include "blocks/view.h"
 
 namespace flyball {
@@ -76,6 +77,10 @@ class Block {
                 std::string doc);
   Helds helds(const std::string& stem, const std::vector<Param>& initial, std::string unit, std::string doc);
 
+  /// A held value that ends the run when an event sets it to 1: the instant is completed, then the run ends
+  /// as it would at its stop time, or with an error. `reason` is shown, with the name of the block.
+  Held run_end(std::string name, RunEnd how, std::string reason);
+
   /// On while positive, off while negative; zero changes nothing.
   Relation relation(std::string name, std::string doc);
   Relations relations_each(const std::string& stem, int n, std::string doc);
@@ -83,6 +88,10 @@ class Block {
   Crossing crossing(std::string name, Direction direction, std::string doc);
   /// The one time event of a block; `schedule` says when it is due, `never` if not.
   Alarm alarm(std::string name, std::string doc);
+
+  /// The key of this instance's own random numbers, from the seed of the run and the name of the instance:
+  /// for `normal` and `uniform` in blocks/random.h. Nothing may set it.
+  Param random_stream();
 
   /// Makes the block sampled: keys `sample_time` and `offset`, exact.
   SampleTime sample_time(Rational fallback = Rational(1));
@@ -132,6 +141,9 @@ class Block {
   /// Text over `inputs`; other names are parameters of the model.
   std::shared_ptr<const Formula> formula(const std::string& key, const std::string& fallback_input,
                                          const std::vector<std::string>& inputs, std::string doc);
+  /// The column that key `column` names of the file that key `file` names, over the file's first column,
+  /// time. At least one row.
+  std::shared_ptr<const TimeSeries> time_series(const std::string& file, const std::string& column);
   /// Reports a structural mistake at `key`.
   void refuse(const std::string& key, std::string message);
 

@@ -8,6 +8,11 @@
   BLOCK(sources, SineWave)                \
   BLOCK(sources, Chirp)                   \
   BLOCK(sources, PulseGenerator)          \
+  BLOCK(sources, RepeatingSequence)       \
+  BLOCK(sources, FromFile)                \
+  BLOCK(sources, RandomNumber)            \
+  BLOCK(sources, UniformRandomNumber)     \
+  BLOCK(sources, BandLimitedWhiteNoise)   \
   BLOCK(sources, Clock)                   \
   BLOCK(math, Gain)                       \
   BLOCK(math, Sum)                        \
@@ -22,6 +27,7 @@
   BLOCK(continuous, Integrator)           \
   BLOCK(continuous, TransferFcn)          \
   BLOCK(continuous, StateSpace)           \
+  BLOCK(continuous, ZeroPole)             \
   BLOCK(discrete, UnitDelay)              \
   BLOCK(discrete, Delay)                  \
   BLOCK(discrete, ZeroOrderHold)          \
@@ -38,6 +44,8 @@
   BLOCK(routing, Demux)                   \
   BLOCK(routing, Selector)                \
   BLOCK(sinks, Terminator)                \
+  BLOCK(sinks, Assertion)                 \
+  BLOCK(sinks, StopSimulation)            \
   BLOCK(control, PID)                     \
   BLOCK(control, DiscretePID)             \
   BLOCK(hybrid, BouncingBall)             \

@@ -46,6 +46,17 @@ inline bool opposite(bool a) { return !a; }
 inline double value_of(double x) { return x; }
 inline double value_of(const Jet& x) { return x.a; }
 
+/// The whole number that a held value counts, to look up a table with in a handler. Scalars without a value
+/// give the first entry, which stands for all.
+template <class T>
+int index_of(const T& count) {
+  if constexpr (requires { value_of(count); }) {
+    return static_cast<int>(std::lround(value_of(count)));
+  } else {
+    return 0;
+  }
+}
+
 /// `a` where the bit is on, else `b`. The only branch that an equation may take on a signal.
 inline double select(bool on, double a, double b) { return on ? a : b; }
 inline Jet select(bool on, const Jet& a, const Jet& b) { return on ? a : b; }

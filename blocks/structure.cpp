@@ -158,6 +158,17 @@ Coefficients Block::matrix(const std::string& key, const std::vector<std::vector
   return declare_coefficients(key, shape, flat(fallback), false, "any", std::move(doc));
 }
 
+std::shared_ptr<const TimeSeries> Block::time_series(const std::string& file, const std::string& column) {
+  spec_.structure.push_back({file, "\"\"", "comma-separated values; the path begins at the model file", {}});
+  spec_.structure.push_back(
+      {column, "\"\"", "name of the column; with one column beside time it may be left out", {}});
+  std::shared_ptr<const TimeSeries> read;
+  if (settings_ != nullptr && !given(file))
+    refuse("", "expected a file, such as " + file + " = \"step.csv\"");
+  if (given(file)) read = settings_->time_series(file, column);
+  return read != nullptr ? read : std::make_shared<const TimeSeries>(TimeSeries{"any", {0.0}, {0.0}});
+}
+
 namespace {
 
 /// The formula that is its first input.

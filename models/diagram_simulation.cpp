@@ -17,8 +17,9 @@ class SimulationReader {
   SimulationReader(ModelParameters& parameters, Report& report) : parameters_(parameters), report_(report) {}
 
   SimulationSettings read(const TomlValue& section) {
-    report_.check_keys(section, "[simulation]", {"stop", "solver", "log_interval"});
+    report_.check_keys(section, "[simulation]", {"stop", "solver", "log_interval", "seed"});
     settings_.stop = above_zero(section, "stop", "s").value_or(settings_.stop);
+    if (const TomlValue* seed = section.find("seed")) read_seed(*seed);
     if (const TomlValue* solver = section.find("solver")) read_solver(*solver);
     if (above_zero(section, "log_interval", "s")) {
       settings_.log_interval = parameters_.exact(*section.find("log_interval"), "s");
@@ -27,6 +28,13 @@ class SimulationReader {
   }
 
  private:
+  void read_seed(const TomlValue& seed) {
+    if (!report_.expect(seed, TomlValue::Kind::integer, "a whole number")) return;
+    if (seed.integer < 0)
+      return report_.error(seed, message::out_of_range("seed", seed.number, non_negative, "1"));
+    settings_.seed = static_cast<std::uint64_t>(seed.integer);
+  }
+
   void read_solver(const TomlValue& solver) {
     if (!report_.expect(solver, TomlValue::Kind::table, "a table such as { method = \"dp5\" }")) return;
     report_.check_keys(solver, "solver", {"method", "rtol", "atol", "max_step", "step"});

@@ -35,6 +35,7 @@ RunResult run_plan(std::shared_ptr<const Plan> plan, const SimulationSettings& s
     result.status = RunStatus::stopped;
     result.reason = error.what();
   }
+  if (result.reason.empty()) result.reason = simulator.end_reason();
   result.wall_time = std::chrono::duration<double>(Clock::now() - start).count();
   result.log = simulator.log();
   result.statistics = simulator.statistics();

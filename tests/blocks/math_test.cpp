@@ -100,4 +100,25 @@ TEST_CASE("MathFunction computes each of its functions") {
   CHECK(of_two("hypot", 3.0, -4.0) == 5.0);
 }
 
+TEST_CASE("MathFunction: remainders and the whole parts that their crossings keep") {
+  const auto remainder = [](const std::string& function, double u1, double u2) {
+    Device d("MathFunction", {{"function", function}});
+    d["u1"] = u1, d["u2"] = u2;
+    d.update();
+    if (d["up"] > 0.0) d.handle(Phase::crossing, "up");
+    if (d["down"] < 0.0) d.handle(Phase::crossing, "down");
+    d.update();
+    // Settled: the next whole parts are on both sides.
+    CHECK((d["up"] <= 0.0 && d["down"] >= 0.0));
+    return d["y"];
+  };
+  for (const double u1 : {-7.5, -6.0, -1.0, -0.25, 0.0, 0.25, 1.0, 6.0, 7.5}) {
+    for (const double u2 : {2.0, -2.0, 0.5}) {
+      INFO(u1 << " by " << u2);
+      CHECK(remainder("rem", u1, u2) == std::fmod(u1, u2));
+      CHECK(remainder("mod", u1, u2) == u1 - std::floor(u1 / u2) * u2);
+    }
+  }
+}
+
 }  // namespace flyball::test

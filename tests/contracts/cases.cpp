@@ -17,11 +17,13 @@ std::vector<Case> function_cases() {
     // asin and acos end at 1, tan at pi/2.
     all.push_back({"TrigonometricFunction", function, {{"function", std::string(function)}}, {0.9}});
   }
-  for (const char* function : {"log", "10^u", "log10", "square", "sqrt", "reciprocal", "pow", "hypot"}) {
+  for (const char* function :
+       {"log", "10^u", "log10", "square", "sqrt", "reciprocal", "pow", "hypot", "rem", "mod"}) {
     const bool positive =
         function == "log"s || function == "log10"s || function == "sqrt"s || function == "pow"s;
     all.push_back({"MathFunction", function, {{"function", std::string(function)}}, {2.0, positive}});
   }
+  all.push_back({"Divide", "a divisor that jumps", {{"divisor_jumps", true}}});
   all.push_back({"MinMax", "greatest of four", {{"function", "max"s}, {"inputs", 4.0}}});
   all.push_back({"MinMax", "one", {{"inputs", 1.0}}});
   all.push_back({"Sum", "five terms", {{"signs", "+-+--"s}}});
@@ -51,6 +53,13 @@ std::vector<Case> continuous_cases() {
        "leading zeros",
        {{"numerator", Numbers{0.0, 0.0, 0.0, 4.0, 1.0}}, {"denominator", Numbers{1.0, 2.0, 0.0, 5.0}}}},
       {"TransferFcn", "order 0", {{"numerator", Numbers{2.0}}, {"denominator", Numbers{4.0}}}},
+      {"ZeroPole",
+       "fifth order",
+       {{"zeros", Numbers{-1.0}},
+        {"complex_zeros", Table{{-1.0, 2.0}}},
+        {"poles", Numbers{-1.0, 0.0, -3.0}},
+        {"complex_poles", Table{{-1.0, 3.0}}}}},
+      {"ZeroPole", "a zero between pairs", {{"zeros", Numbers{-1.0}}, {"complex_poles", Table{{-1.0, 3.0}}}}},
       {"StateSpace",
        "two by two",
        {{"A", Table{{0.0, 1.0}, {-2.0, -3.0}}},
@@ -64,6 +73,19 @@ std::vector<Case> continuous_cases() {
         {"B", Table{{0.0}, {1.0}}},
         {"C", Table{{1.0, 0.0}, {0.0, 1.0}}}}},
   };
+}
+
+std::vector<Case> source_cases() {
+  const auto rows =
+      std::make_shared<const TimeSeries>(TimeSeries{"m", {0.5, 1.5, 1.5, 2.0}, {1.0, 3.0, -1.0, 2.0}});
+  std::vector<Case> all{{"RepeatingSequence", "hold", {{"interpolation", "hold"s}}}};
+  for (const char* outside : {"hold", "linear", "zero"}) {
+    all.push_back({"FromFile",
+                   outside,
+                   {{"file", rows}, {"before", std::string(outside)}, {"after", std::string(outside)}}});
+  }
+  all.push_back({"FromFile", "steps", {{"file", rows}, {"interpolation", "hold"s}}});
+  return all;
 }
 
 std::vector<Case> sampled_cases() {
@@ -137,7 +159,8 @@ std::vector<Case> cases() {
   for (const BlockType& type : catalogue()) {
     all.push_back({type.name, "default", {}, {default_span(type.name)}});
   }
-  for (auto more : {function_cases(), continuous_cases(), sampled_cases(), controller_cases()}) {
+  for (auto more :
+       {function_cases(), continuous_cases(), source_cases(), sampled_cases(), controller_cases()}) {
     all.insert(all.end(), more.begin(), more.end());
   }
   return all;
