@@ -13,7 +13,7 @@ Word low(std::uint64_t x) { return static_cast<Word>(x); }
 Word high(std::uint64_t x) { return static_cast<Word>(x >> 32); }
 std::uint64_t whole(double x) { return static_cast<std::uint64_t>(std::llround(x)); }
 
-/// Two uniform numbers in (0, 1): 53 bits each, and half a unit away from both ends.
+/// Two uniform numbers in (0, 1): 52 bits each, and half a unit away from both ends.
 std::array<double, 2> uniform_pair(double stream, double k) {
   const std::uint64_t key = whole(stream), counter = whole(k);
   const auto bits = philox({low(counter), high(counter), 0, 0}, {low(key), high(key)});

@@ -28,6 +28,7 @@ class CsvReader {
     if (text_.size() > largest_csv) return error(at_, message::file_too_large(largest_csv)), std::nullopt;
     if (at_end()) return error(at_, message::csv_empty()), std::nullopt;
     read_header();
+    if (errors_ > 0) return std::nullopt;
     while (errors_ < most_csv_errors && !at_end()) read_row();
     if (errors_ == 0 && table_.numbers.empty()) error(text_.size(), message::csv_without_rows());
     return errors_ > 0 ? std::nullopt : std::optional(std::move(table_));
@@ -58,7 +59,7 @@ class CsvReader {
   }
 
   void read_row() {
-    const std::size_t before = table_.numbers.size();
+    if (at_line_end()) return wrong_width(at_, 0);
     int column = 0;
     for (bool more = true; more; ++column) {
       Field field;
@@ -67,10 +68,8 @@ class CsvReader {
       table_.numbers.push_back(number(field));
       more = comma();
     }
-    if (column < table_.width() && table_.numbers.size() > before)
-      wrong_width(at_, column);
-    else
-      end_line();
+    if (column < table_.width()) return wrong_width(at_, column);
+    end_line();
   }
 
   void wrong_width(std::size_t offset, int column) {
