@@ -9,8 +9,8 @@ struct RepeatingSequence : Block {
   static constexpr auto summary = "Values at given times, again and again.";
   bool interpolates = option("interpolation", "linear", {"linear", "hold"}, "between two times") == 0;
   Coefficients given_times =
-      coefficients("times", {0.0, 1.0, 2.0}, "s", "times, rising; the last one ends the period");
-  Coefficients given_values = coefficients("values", {0.0, 1.0, 0.0}, "any", "value at each of the times");
+      coefficients("times", {0.0, 2.0}, "s", "times, rising; the last one ends the period");
+  Coefficients given_values = coefficients("values", {0.0, 2.0}, "any", "value at each of the times");
   std::vector<Param> times = given_times.params(0), values = given_values.params(0);
   int last = static_cast<int>(times.size()) - 1;
   Output y = output("y", "any", "the value; the first one before the first time");

@@ -57,7 +57,7 @@ std::vector<Case> continuous_cases() {
        "fifth order",
        {{"zeros", Numbers{-1.0}},
         {"complex_zeros", Table{{-1.0, 2.0}}},
-        {"poles", Numbers{-1.0, 0.0, -3.0}},
+        {"poles", Numbers{-1.0, -2.0, -3.0}},
         {"complex_poles", Table{{-1.0, 3.0}}}}},
       {"ZeroPole", "a zero between pairs", {{"zeros", Numbers{-1.0}}, {"complex_poles", Table{{-1.0, 3.0}}}}},
       {"StateSpace",
