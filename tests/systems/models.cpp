@@ -280,7 +280,7 @@ TEST_CASE("Recorded command: the motor follows the rows of the file, and the noi
   CHECK(weighted(run.logged("motor", 2.0), w, model.settings) < 500);
   double squares = 0.0;
   for (int k = 0; k < 200; ++k) {
-    const double error = (run.logged("sensor", 0.01 * k) - run.logged("motor", 0.01 * k)) / 0.5;
+    const double error = (run.logged("sensor", k / 100.0) - run.logged("motor", k / 100.0)) / 0.5;
     squares += error * error / 200.0;
   }
   // Four standard deviations of a mean of 200 squares.
