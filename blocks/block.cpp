@@ -188,10 +188,26 @@ State Block::state(std::string name, Param initial, std::string unit, std::strin
 }
 
 States Block::states(const std::string& stem, int n, std::string unit, std::string doc) {
-  if (n == 0) spec_.absent.push_back(state_spec(SlotKind::state, stem, 0.0, -1, unit, doc));
+  return states(stem, std::vector<Param>(n), std::move(unit), std::move(doc));
+}
+
+int Block::state_slots(SlotKind kind, const std::string& stem, const std::vector<Param>& initial,
+                       const std::string& unit, const std::string& doc) {
+  if (initial.empty()) spec_.absent.push_back(state_spec(kind, stem, 0.0, -1, unit, doc));
   const int first = static_cast<int>(spec_.slots.size());
-  for (int k = 1; k <= n; ++k) state(fmt::format("{}{}", stem, k), 0.0, unit, doc);
-  return {first, n};
+  for (std::size_t k = 0; k < initial.size(); ++k)
+    state_slot(kind, fmt::format("{}{}", stem, k + 1), 0.0, initial[k].slot, unit, doc);
+  return first;
+}
+
+States Block::states(const std::string& stem, const std::vector<Param>& initial, std::string unit,
+                     std::string doc) {
+  return {state_slots(SlotKind::state, stem, initial, unit, doc), static_cast<int>(initial.size())};
+}
+
+Helds Block::helds(const std::string& stem, const std::vector<Param>& initial, std::string unit,
+                   std::string doc) {
+  return {state_slots(SlotKind::held, stem, initial, unit, doc), static_cast<int>(initial.size())};
 }
 
 StateLimits Block::limits(State x, Param lower, Param upper) {
@@ -212,6 +228,19 @@ Held Block::held(std::string name, double initial, std::string unit, std::string
 
 Held Block::held(std::string name, Param initial, std::string unit, std::string doc) {
   return {state_slot(SlotKind::held, std::move(name), 0, initial.slot, std::move(unit), std::move(doc))};
+}
+
+Held Block::run_end(std::string name, RunEnd how, std::string reason) {
+  const Held end = held(std::move(name), 0.0, "1", std::move(reason));
+  spec_.slots[end.slot].end = how;
+  return end;
+}
+
+Param Block::random_stream() {
+  const Param stream = param("stream", 0.0, "1", any, "stream of random numbers");
+  spec_.slots[stream.slot].fixed = true;
+  spec_.slots[stream.slot].stream = true;
+  return stream;
 }
 
 Relation Block::relation(std::string name, std::string doc) {

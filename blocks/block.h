@@ -9,6 +9,7 @@
 #include "blocks/settings.h"
 #include "blocks/specification.h"
 #include "blocks/state_limits.h"
+#include "blocks/time_series.h"
 #include "blocks/view.h"
 
 namespace flyball {
@@ -71,6 +72,14 @@ class Block {
   StateLimits limits(State x, Param lower, Param upper);
   Held held(std::string name, double initial, std::string unit, std::string doc);
   Held held(std::string name, Param initial, std::string unit, std::string doc);
+  /// stem1, stem2, …: one for each of `initial`, 0 at the start where that is not declared.
+  States states(const std::string& stem, const std::vector<Param>& initial, std::string unit,
+                std::string doc);
+  Helds helds(const std::string& stem, const std::vector<Param>& initial, std::string unit, std::string doc);
+
+  /// A held value that ends the run when an event sets it to 1: the instant is completed, then the run ends
+  /// as it would at its stop time, or with an error. `reason` is shown, with the name of the block.
+  Held run_end(std::string name, RunEnd how, std::string reason);
 
   /// On while positive, off while negative; zero changes nothing.
   Relation relation(std::string name, std::string doc);
@@ -79,6 +88,10 @@ class Block {
   Crossing crossing(std::string name, Direction direction, std::string doc);
   /// The one time event of a block; `schedule` says when it is due, `never` if not.
   Alarm alarm(std::string name, std::string doc);
+
+  /// The key of this instance's own random numbers, from the seed of the run and the name of the instance:
+  /// for `normal` and `uniform` in blocks/random.h. Nothing may set it.
+  Param random_stream();
 
   /// Makes the block sampled: keys `sample_time` and `offset`, exact.
   SampleTime sample_time(Rational fallback = Rational(1));
@@ -117,6 +130,9 @@ class Block {
   bool flag(const std::string& key, bool fallback, std::string doc);
   std::vector<std::string> list(const std::string& key, const std::vector<std::string>& fallback,
                                 std::string doc);
+  /// Whole numbers from `least` to `most`.
+  std::vector<int> counts(const std::string& key, const std::vector<int>& fallback, int least, int most,
+                          std::string doc);
   /// Parameters key[0], key[1], … (or key[0][1], …), one for each entry that is not a literal 0.
   Coefficients coefficients(const std::string& key, const std::vector<double>& fallback, std::string unit,
                             std::string doc);
@@ -125,6 +141,9 @@ class Block {
   /// Text over `inputs`; other names are parameters of the model.
   std::shared_ptr<const Formula> formula(const std::string& key, const std::string& fallback_input,
                                          const std::vector<std::string>& inputs, std::string doc);
+  /// The column that key `column` names of the file that key `file` names, over the file's first column,
+  /// time. At least one row.
+  std::shared_ptr<const TimeSeries> time_series(const std::string& file, const std::string& column);
   /// Reports a structural mistake at `key`.
   void refuse(const std::string& key, std::string message);
 
@@ -139,6 +158,8 @@ class Block {
                   const std::vector<std::string>& units, const std::string& doc);
   int state_slot(SlotKind kind, std::string name, double initial, int initial_param, std::string unit,
                  std::string doc);
+  int state_slots(SlotKind kind, const std::string& stem, const std::vector<Param>& initial,
+                  const std::string& unit, const std::string& doc);
   Output aliased(std::string name, int slot, std::string doc);
   Coefficients declare_coefficients(const std::string& key, const Shape& shape,
                                     const std::vector<double>& fallback, bool one_row, std::string unit,

@@ -1,32 +1,54 @@
 // The blocks, one line each, in the order of the reference: the family, which is the folder, and the class.
 // The file is named after the class (UnitDelay: unit_delay.h); the build reads these lines to compile each
 // family.
-#define FLYBALL_CATALOGUE(BLOCK)     \
-  BLOCK(sources, Constant)           \
-  BLOCK(sources, Step)               \
-  BLOCK(sources, SineWave)           \
-  BLOCK(sources, PulseGenerator)     \
-  BLOCK(sources, Clock)              \
-  BLOCK(math, Gain)                  \
-  BLOCK(math, Sum)                   \
-  BLOCK(math, Product)               \
-  BLOCK(math, Abs)                   \
-  BLOCK(math, TrigonometricFunction) \
-  BLOCK(math, Expression)            \
-  BLOCK(continuous, Integrator)      \
-  BLOCK(continuous, TransferFcn)     \
-  BLOCK(continuous, StateSpace)      \
-  BLOCK(discrete, UnitDelay)         \
-  BLOCK(discrete, ZeroOrderHold)     \
-  BLOCK(nonlinear, Saturation)       \
-  BLOCK(nonlinear, DeadZone)         \
-  BLOCK(nonlinear, Relay)            \
-  BLOCK(routing, Switch)             \
-  BLOCK(routing, Mux)                \
-  BLOCK(routing, Demux)              \
-  BLOCK(control, PID)                \
-  BLOCK(control, DiscretePID)        \
-  BLOCK(hybrid, BouncingBall)        \
+#define FLYBALL_CATALOGUE(BLOCK)          \
+  BLOCK(sources, Constant)                \
+  BLOCK(sources, Step)                    \
+  BLOCK(sources, Ramp)                    \
+  BLOCK(sources, SineWave)                \
+  BLOCK(sources, Chirp)                   \
+  BLOCK(sources, PulseGenerator)          \
+  BLOCK(sources, RepeatingSequence)       \
+  BLOCK(sources, FromFile)                \
+  BLOCK(sources, RandomNumber)            \
+  BLOCK(sources, UniformRandomNumber)     \
+  BLOCK(sources, BandLimitedWhiteNoise)   \
+  BLOCK(sources, Clock)                   \
+  BLOCK(math, Gain)                       \
+  BLOCK(math, Sum)                        \
+  BLOCK(math, Product)                    \
+  BLOCK(math, Divide)                     \
+  BLOCK(math, Abs)                        \
+  BLOCK(math, Sign)                       \
+  BLOCK(math, MinMax)                     \
+  BLOCK(math, TrigonometricFunction)      \
+  BLOCK(math, MathFunction)               \
+  BLOCK(math, Expression)                 \
+  BLOCK(continuous, Integrator)           \
+  BLOCK(continuous, TransferFcn)          \
+  BLOCK(continuous, StateSpace)           \
+  BLOCK(continuous, ZeroPole)             \
+  BLOCK(discrete, UnitDelay)              \
+  BLOCK(discrete, Delay)                  \
+  BLOCK(discrete, ZeroOrderHold)          \
+  BLOCK(discrete, DiscreteTimeIntegrator) \
+  BLOCK(discrete, DiscreteTransferFcn)    \
+  BLOCK(discrete, DiscreteStateSpace)     \
+  BLOCK(discrete, Counter)                \
+  BLOCK(discrete, CounterLimited)         \
+  BLOCK(nonlinear, Saturation)            \
+  BLOCK(nonlinear, DeadZone)              \
+  BLOCK(nonlinear, Relay)                 \
+  BLOCK(routing, Switch)                  \
+  BLOCK(routing, Mux)                     \
+  BLOCK(routing, Demux)                   \
+  BLOCK(routing, Selector)                \
+  BLOCK(sinks, Terminator)                \
+  BLOCK(sinks, Assertion)                 \
+  BLOCK(sinks, StopSimulation)            \
+  BLOCK(control, PID)                     \
+  BLOCK(control, DiscretePID)             \
+  BLOCK(hybrid, BouncingBall)             \
   BLOCK(robot, DifferentialDrive)
 
 #include "blocks/registry.h"

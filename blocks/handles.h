@@ -45,6 +45,7 @@ class Many {
 using Inputs = Many<Input>;
 using Outputs = Many<Output>;
 using States = Many<State>;
+using Helds = Many<Held>;
 using Relations = Many<Relation>;
 
 /// A position and heading in the plane, as a port with the elements x, y and theta.
@@ -76,6 +77,12 @@ class Coefficients {
   std::span<const Entry> row(int r) const {
     if (r >= rows_) return {};
     return {entries_.data() + starts_[r], entries_.data() + starts_[r + 1]};
+  }
+  /// Row r with one parameter a column; those of absent entries are not declared.
+  std::vector<Param> params(int r) const {
+    std::vector<Param> all(r < rows_ ? columns_ : 0);
+    for (const Entry& e : row(r)) all[e.column] = e.param;
+    return all;
   }
 
  private:

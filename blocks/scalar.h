@@ -26,6 +26,7 @@ using std::atan2;
 using std::cos;
 using std::cosh;
 using std::exp;
+using std::floor;
 using std::hypot;
 using std::log;
 using std::log10;
@@ -60,6 +61,17 @@ inline double value_of(const Jet& x);
 
 inline bool nonzero(double x) { return x != 0.0; }
 inline bool nonzero(const Jet& x);
+
+/// The whole number that a held value counts, to look up a table with in a handler. Scalars without a value
+/// give the first entry, which stands for all.
+template <class T>
+int index_of(const T& count) {
+  if constexpr (requires { value_of(count); }) {
+    return static_cast<int>(std::lround(value_of(count)));
+  } else {
+    return 0;
+  }
+}
 
 /// `a` where the bit is on, else `b`. The only branch that an equation may take on a signal.
 inline double select(bool on, double a, double b) { return on ? a : b; }

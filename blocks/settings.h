@@ -8,6 +8,7 @@
 
 #include "blocks/formula.h"
 #include "blocks/rational.h"
+#include "blocks/time_series.h"
 
 namespace flyball {
 
@@ -27,12 +28,15 @@ class Settings {
   virtual bool given(std::string_view key) const = 0;
   virtual std::optional<std::string> text(std::string_view key) = 0;
   virtual std::optional<long> integer(std::string_view key) = 0;
+  virtual std::optional<std::vector<long>> integers(std::string_view key) = 0;
   virtual std::optional<bool> flag(std::string_view key) = 0;
   /// A number, exactly, in SI; an expression makes its parameters structural.
   virtual std::optional<Rational> exact(std::string_view key) = 0;
   virtual std::optional<std::vector<std::string>> list(std::string_view key) = 0;
   /// A list has one row; a list of lists has a row each.
   virtual std::optional<Shape> shape(std::string_view key) = 0;
+  /// A column of a file; see Block::time_series.
+  virtual std::shared_ptr<const TimeSeries> time_series(std::string_view file, std::string_view column) = 0;
   /// An expression; names that are not in `inputs` are parameters of the model.
   virtual std::shared_ptr<const Formula> formula(std::string_view key,
                                                  const std::vector<std::string>& inputs) = 0;

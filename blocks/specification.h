@@ -34,6 +34,9 @@ inline constexpr Range unit_interval{0.0, 1.0};
 /// Which change of sign fires a crossing.
 enum class Direction { rising, falling, either };
 
+/// What it means for the run when a held value is no longer 0 after an instant.
+enum class RunEnd { none, normal, error };
+
 enum class SlotKind {
   time,
   param,
@@ -63,7 +66,9 @@ struct SlotSpec {
   std::string reference;   // parameter of the model that this one is bound to (a formula's free name)
   bool optional = false;   // an input that may stay unconnected
   bool fixed = false;      // a parameter that nothing may set: the sample time
+  bool stream = false;     // a parameter that is the stream of random numbers of its instance
   Direction direction = Direction::either;
+  RunEnd end = RunEnd::none;  // of a held value; then `doc` says why
   // Objects and memories are no numbers: their slots count in arrays of their own.
   std::string type;                                        // name of the C++ type; ends of a wire must agree
   std::shared_ptr<const void> (*make_object)() = nullptr;  // the value before the first hit

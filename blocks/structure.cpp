@@ -55,6 +55,19 @@ std::vector<std::string> Block::list(const std::string& key, const std::vector<s
   return settings_ == nullptr ? fallback : settings_->list(key).value_or(fallback);
 }
 
+std::vector<int> Block::counts(const std::string& key, const std::vector<int>& fallback, int least, int most,
+                               std::string doc) {
+  spec_.structure.push_back({key, fmt::format("[{}]", fmt::join(fallback, ", ")), std::move(doc), {}});
+  if (settings_ == nullptr) return fallback;
+  const auto read = settings_->integers(key);
+  if (!read) return fallback;
+  const auto wrong = std::ranges::find_if(*read, [&](long n) { return n < least || n > most; });
+  if (wrong == read->end() && !read->empty()) return {read->begin(), read->end()};
+  const std::string found = read->empty() ? "an empty list" : std::to_string(*wrong);
+  refuse(key, fmt::format("expected whole numbers from {} to {}, found {}", least, most, found));
+  return fallback;
+}
+
 SampleTime Block::sample_time(Rational fallback) {
   spec_.structure.push_back(
       {"sample_time", fmt::format("\"{} s\"", fallback.value()), "time between two hits, exact", {}});
@@ -143,6 +156,17 @@ Coefficients Block::matrix(const std::string& key, const std::vector<std::vector
   Shape shape = shape_of(fallback);
   if (given(key)) shape = settings_->shape(key).value_or(shape);
   return declare_coefficients(key, shape, flat(fallback), false, "any", std::move(doc));
+}
+
+std::shared_ptr<const TimeSeries> Block::time_series(const std::string& file, const std::string& column) {
+  spec_.structure.push_back({file, "\"\"", "comma-separated values; the path begins at the model file", {}});
+  spec_.structure.push_back(
+      {column, "\"\"", "name of the column; with one column beside time it may be left out", {}});
+  std::shared_ptr<const TimeSeries> read;
+  if (settings_ != nullptr && !given(file))
+    refuse("", "expected a file, such as " + file + " = \"step.csv\"");
+  if (given(file)) read = settings_->time_series(file, column);
+  return read != nullptr ? read : std::make_shared<const TimeSeries>(TimeSeries{"any", {0.0}, {0.0}});
 }
 
 namespace {

@@ -91,6 +91,8 @@ class View {
 
   /// A number without meaning of its own, in the scalar of this run: where a sum starts.
   static T number(double x) { return T(x); }
+  /// The number of a parameter that is absent where the model has a literal 0.
+  T number(Param p) const { return p.declared() ? value(p) : T(0.0); }
 
   template <class O>
   const O& operator[](ObjectInput<O> port) const {

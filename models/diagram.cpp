@@ -1,9 +1,7 @@
 #include "models/diagram.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 
 #include "models/diagram_blocks.h"
@@ -16,6 +14,7 @@
 #include "models/diagram_wires.h"
 #include "models/dimensions.h"
 #include "models/language/messages.h"
+#include "models/read_file.h"
 
 namespace flyball {
 namespace {
@@ -26,18 +25,6 @@ template <class T>
 int index_of(const std::vector<T>& all, std::string_view name) {
   const auto found = std::ranges::find(all, name, &T::name);
   return found == all.end() ? -1 : static_cast<int>(found - all.begin());
-}
-
-/// Nothing when the file cannot be read; errno then says why.
-std::optional<std::string> content_of(const std::string& file) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), std::fclose);
-  if (stream == nullptr) return std::nullopt;
-  std::string content;
-  std::array<char, 65536> chunk;
-  while (const std::size_t size = std::fread(chunk.data(), 1, chunk.size(), stream.get())) {
-    content.append(chunk.data(), size);
-  }
-  return std::ferror(stream.get()) != 0 ? std::nullopt : std::optional(std::move(content));
 }
 
 class DiagramReader {
@@ -68,6 +55,7 @@ class DiagramReader {
     }
     diagram_.parameters = parameters_.parameters();
     diagram_.instances = std::move(blocks_.instances());
+    diagram_.data_files = blocks_.data_files();
     return std::move(diagram_);
   }
 
@@ -141,7 +129,7 @@ std::optional<Diagram> read_diagram(std::string_view text, Diagnostics& diagnost
 
 std::optional<Diagram> read_diagram(Diagnostics& diagnostics, const std::vector<Override>& overrides) {
   errno = 0;
-  const auto text = content_of(diagnostics.file());
+  const auto text = read_file_content(diagnostics.file());
   if (text) return read_diagram(*text, diagnostics, overrides);
   diagnostics.error({}, message::unreadable(std::strerror(errno)));
   return std::nullopt;

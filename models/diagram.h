@@ -75,8 +75,15 @@ struct SimulationSettings {
   double atol = 1e-8;
   std::optional<double> max_step;        // default: a fiftieth of the run
   std::optional<double> step;            // of fixed-step methods; default: a thousandth of the run
+  std::uint64_t seed = 1;                // of all random numbers
   std::optional<Rational> log_interval;  // default: a thousandth of the run
   bool refuse_loops = false;             // algebraic loops are solved, else refused
+};
+
+/// A file of values that a block reads.
+struct DataFile {
+  std::string name;
+  std::string hash;  // of its bytes
 };
 
 /// A checked model: every name resolved, every input connected, every structure constructed. Immutable.
@@ -88,6 +95,7 @@ struct Diagram {
   std::vector<Instance> instances;
   std::vector<Logged> logged;
   std::vector<Guess> guesses;
+  std::vector<DataFile> data_files;
   SimulationSettings simulation;
 
   int find_instance(std::string_view name) const;   ///< -1 when there is none

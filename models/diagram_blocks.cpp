@@ -100,7 +100,7 @@ const BlockType* ModelBlocks::type_of(const TomlEntry& entry) {
 
 const BlockForm* ModelBlocks::make(const BlockType& type, const TomlEntry& entry) {
   Made& made = made_[&type];
-  TableSettings settings(entry, parameters_, report_);
+  TableSettings settings(entry, parameters_, files_, report_);
   const int errors_before = report_.errors();
   const std::string structure = settings.structure(made.uses);
   const bool readable = report_.errors() == errors_before;

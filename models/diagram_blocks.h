@@ -35,6 +35,7 @@ class ModelBlocks {
   const BlockForm* form(int instance) const { return forms_[instance]; }
   const std::vector<Instance>& instances() const { return instances_; }
   std::vector<Instance>& instances() { return instances_; }
+  std::vector<DataFile> data_files() const { return files_.opened(); }
   std::vector<std::string> names() const;
 
  private:
@@ -52,6 +53,7 @@ class ModelBlocks {
   void check_range(const SlotSpec& slot, const Binding& binding, const TomlValue& value);
 
   ModelParameters& parameters_;
+  DataFiles files_;
   Report& report_;
   std::map<const BlockType*, Made> made_;
   std::vector<std::unique_ptr<BlockForm>>

@@ -25,6 +25,7 @@ class Report {
   Position inside(const TomlValue& string, std::size_t offset) const {
     return document_.inside(string, offset);
   }
+  const std::string& file() const { return diagnostics_.file(); }
   int errors() const { return diagnostics_.errors(); }
 
   /// Whether the value has this kind; else an error that says what was expected.

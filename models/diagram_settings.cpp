@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "models/language/messages.h"
 
 namespace flyball {
@@ -63,6 +65,17 @@ std::optional<long> TableSettings::integer(std::string_view key) {
   return value->integer;
 }
 
+std::optional<std::vector<long>> TableSettings::integers(std::string_view key) {
+  const TomlValue* value = find(key, as_written);
+  if (value == nullptr || !report_.expect(*value, Kind::list, "a list of whole numbers")) return std::nullopt;
+  std::vector<long> result;
+  for (const TomlValue& item : value->items) {
+    if (!report_.expect(item, Kind::integer, "a whole number")) return std::nullopt;
+    result.push_back(item.integer);
+  }
+  return result;
+}
+
 std::optional<bool> TableSettings::flag(std::string_view key) {
   const TomlValue* value = find(key, as_written);
   if (value == nullptr || !report_.expect(*value, Kind::boolean, "true or false")) return std::nullopt;
@@ -122,6 +135,32 @@ std::shared_ptr<const Formula> TableSettings::formula(std::string_view key,
   return parsed ? std::make_shared<const Formula>(*std::move(parsed)) : nullptr;
 }
 
+std::string TableSettings::path_of(const TomlValue& file) const {
+  return (std::filesystem::path(report_.file()).parent_path() / file.text).string();
+}
+
+std::shared_ptr<const TimeSeries> TableSettings::time_series(std::string_view file, std::string_view column) {
+  const TomlValue* value = find(file, as_file);
+  if (value == nullptr || !report_.expect(*value, Kind::string, "the name of a file in quotes"))
+    return nullptr;
+  const auto name = text(column);
+  const TomlValue* given_column = block_.value.find(column);
+  if (given_column != nullptr && !name) return nullptr;
+  const DataFiles::Content& content = files_.open(path_of(*value));
+  std::vector<Diagnostic> problems = content.problems;
+  std::shared_ptr<const TimeSeries> series;
+  if (content.table) {
+    Diagnostics diagnostics(path_of(*value));
+    series = read_time_series(*content.table, name.value_or(""), diagnostics);
+    problems = diagnostics.sorted();
+  }
+  const bool column_is_wrong = content.table && name && content.table->find(*name) < 0;
+  for (const Diagnostic& problem : problems) {
+    report_.error(column_is_wrong ? *given_column : *value, message::in_data_file(to_string(problem)));
+  }
+  return series;
+}
+
 void TableSettings::refuse(std::string_view key, std::string message) {
   // A value that could not be read was replaced by its default: what the block refuses may only follow from
   // that.
@@ -159,6 +198,7 @@ std::string TableSettings::structure(const Uses& uses) {
     // 3.0 is not taken where a whole number is wanted.
     if ((use & as_whole) != 0 && value->is(Kind::number)) result += '.';
     if ((use & as_whole) != 0) append_exact(result, *value, "1");
+    if ((use & as_file) != 0 && value->is(Kind::string)) result += path_of(*value);
     if ((use & as_shape) != 0) append_shape(result, key);
     result += ';';
   }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "blocks/settings.h"
+#include "models/diagram_data.h"
 #include "models/diagram_parameters.h"
 #include "models/diagram_report.h"
 
@@ -13,21 +14,27 @@ namespace flyball {
 class TableSettings : public Settings {
  public:
   /// How a key was read: more than one bit may be set.
-  enum Use : unsigned { as_written = 1, as_time = 2, as_whole = 4, as_shape = 8 };
+  enum Use : unsigned { as_written = 1, as_time = 2, as_whole = 4, as_shape = 8, as_file = 16 };
   using Uses = std::map<std::string, unsigned, std::less<>>;
 
-  TableSettings(const TomlEntry& block, ModelParameters& parameters, Report& report)
-      : block_(block), parameters_(parameters), report_(report), errors_before_(report.errors()) {}
+  TableSettings(const TomlEntry& block, ModelParameters& parameters, DataFiles& files, Report& report)
+      : block_(block),
+        parameters_(parameters),
+        files_(files),
+        report_(report),
+        errors_before_(report.errors()) {}
 
   bool given(std::string_view key) const override;
   std::optional<std::string> text(std::string_view key) override;
   std::optional<long> integer(std::string_view key) override;
+  std::optional<std::vector<long>> integers(std::string_view key) override;
   std::optional<bool> flag(std::string_view key) override;
   std::optional<Rational> exact(std::string_view key) override;
   std::optional<std::vector<std::string>> list(std::string_view key) override;
   std::optional<Shape> shape(std::string_view key) override;
   std::shared_ptr<const Formula> formula(std::string_view key,
                                          const std::vector<std::string>& inputs) override;
+  std::shared_ptr<const TimeSeries> time_series(std::string_view file, std::string_view column) override;
   void refuse(std::string_view key, std::string message) override;
 
   /// All that the block's constructor has asked for: its structure depends on nothing else.
@@ -37,11 +44,13 @@ class TableSettings : public Settings {
 
  private:
   const TomlValue* find(std::string_view key, Use use) const;
+  std::string path_of(const TomlValue& file) const;
   void append_exact(std::string& result, const TomlValue& value, const std::string& unit);
   void append_shape(std::string& result, std::string_view key);
 
   const TomlEntry& block_;
   ModelParameters& parameters_;
+  DataFiles& files_;
   Report& report_;
   int errors_before_;
   int refusals_ = 0;

@@ -19,8 +19,9 @@ class SimulationReader {
       : states_(states), parameters_(parameters), report_(report) {}
 
   SimulationSettings read(const TomlValue& section) {
-    report_.check_keys(section, "[simulation]", {"stop", "solver", "log_interval", "algebraic_loops"});
+    report_.check_keys(section, "[simulation]", {"stop", "solver", "log_interval", "algebraic_loops", "seed"});
     settings_.stop = above_zero(section, "stop", "s").value_or(settings_.stop);
+    if (const TomlValue* seed = section.find("seed")) read_seed(*seed);
     if (const TomlValue* solver = section.find("solver")) read_solver(*solver);
     if (above_zero(section, "log_interval", "s")) {
       settings_.log_interval = parameters_.exact(*section.find("log_interval"), "s");
@@ -36,6 +37,13 @@ class SimulationReader {
     if (loops.text == "solve" || settings_.refuse_loops) return;
     report_.error_inside(loops, 0,
                          message::unknown_choice("algebraic_loops", loops.text, {"solve", "refuse"}));
+  }
+
+  void read_seed(const TomlValue& seed) {
+    if (!report_.expect(seed, TomlValue::Kind::integer, "a whole number")) return;
+    if (seed.integer < 0)
+      return report_.error(seed, message::out_of_range("seed", seed.number, non_negative, "1"));
+    settings_.seed = static_cast<std::uint64_t>(seed.integer);
   }
 
   void read_solver(const TomlValue& solver) {

@@ -101,6 +101,7 @@ class SlotGiver {
           index(i, local) = model_slot_[binding.parameter];
         } else {
           bind(index(i, local) = give(i, local), binding);
+          if (slots_of(plan_, i)[local].stream) plan_.streams.push_back(index(i, local));
         }
       }
       for (const auto& [local, from] : plan_.instance(i).inputs) open_input(i, local, from);
@@ -125,6 +126,7 @@ class SlotGiver {
           const int from = slots[s].initial_param < 0 ? -1 : index(i, slots[s].initial_param);
           plan_.initial.push_back({index(i, s), slots[s].fallback, from});
         }
+        if (slots[s].end != RunEnd::none) plan_.run_ends.push_back(index(i, s));
         if (kind == SlotKind::crossing) plan_.crossing_records.push_back({i, s, slots[s].direction});
         if (kind == SlotKind::alarm) plan_.alarm_records.push_back({i, index(i, s)});
       }

@@ -154,6 +154,8 @@ struct Plan {
   std::vector<Start> literals;          // parameters with a number of their own
   std::vector<Derivation> derivations;  // in dependency order
   std::vector<Start> initial;           // states and held values
+  std::vector<int> streams;             // slots of streams of random numbers
+  std::vector<int> run_ends;            // slots of held values that end the run when they are not 0
   std::vector<std::shared_ptr<const void> (*)()> first_objects;
   std::vector<std::any (*)()> first_memories;
 

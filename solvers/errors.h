@@ -9,7 +9,7 @@ namespace flyball {
 /// A run that had to stop: what happened, where and when. What was logged before stays with the simulator.
 class SimulationError : public std::runtime_error {
  public:
-  enum class Kind { not_finite, step_vanished, chattering, alarm, algebraic_loop, solver };
+  enum class Kind { not_finite, step_vanished, chattering, alarm, algebraic_loop, asserted, solver };
 
   SimulationError(Kind kind, double time, const std::string& message)
       : std::runtime_error(message), kind_(kind), time_(time) {}

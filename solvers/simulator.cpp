@@ -17,6 +17,10 @@ namespace {
 /// So many located events in a row, each within rounding of the one before, are no motion any more.
 constexpr int most_close_events = 50;
 
+/// What the block that owns a slot said of it.
+const SlotSpec& slot_spec(const Plan& plan, int slot) {
+  return plan.instance(plan.owner[slot]).object->specification->slots[plan.owner_local[slot]];
+}
 
 std::vector<int> logged_slots(const Plan& plan) {
   std::vector<int> slots;
@@ -70,10 +74,12 @@ Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings&
 
 void Simulator::begin() {
   if (stage_ == Stage::fresh) {
+    seed(*plan_, workspace_, settings_.seed);
     initialise(*plan_, workspace_);
     instant_.ask_schedules();
     instant(0.0, next_tick(), false);
   }
+  find_end();
   stage_ = Stage::running;
   stepper_->restart(time_, workspace_.values.data() + plan_->layout.first_state, workspace_.step, true);
 }
@@ -87,7 +93,7 @@ double Simulator::next_tick() const {
 
 bool Simulator::advance() {
   if (stage_ != Stage::running) begin();
-  if (time_ >= settings_.stop) return false;
+  if (time_ >= settings_.stop || ended_by_ >= 0) return false;
   const double tick = next_tick();
   const double alarm = instant_.next_alarm();
   const double first = std::min(tick, alarm);
@@ -114,7 +120,7 @@ bool Simulator::advance() {
   } else {
     time_ = end;
   }
-  return time_ < settings_.stop;
+  return time_ < settings_.stop && ended_by_ < 0;
 }
 
 /// The end of the step, or the first event in it.
@@ -145,7 +151,11 @@ void Simulator::instant(double t, double tick, bool located) {
     affine_log_.adopt(workspace_, workspace_.logs_map);
   time_ = t;
   check_alarms(t);
+  find_end();
   if (logs) log_instant(was_asked);
+  if (ended_by_ >= 0 && slot_spec(*plan_, ended_by_).end == RunEnd::error) {
+    throw SimulationError(SimulationError::Kind::asserted, t, fmt::format("{} at t = {} s", end_reason(), t));
+  }
   if (stage_ == Stage::running && t < settings_.stop) {
     stepper_->restart(t, workspace_.values.data() + plan_->layout.first_state, workspace_.step, changed);
   }
@@ -180,6 +190,20 @@ void Simulator::check_alarms(double t) const {
                           fmt::format("{} asks to be woken at t = {} s, which is not after t = {} s",
                                       plan_->slot_name(alarm.slot), workspace_.values[alarm.slot], t));
   }
+}
+
+/// An error counts before an end that was asked for.
+void Simulator::find_end() {
+  for (const int slot : plan_->run_ends) {
+    if (workspace_.values[slot] == 0.0) continue;
+    if (ended_by_ < 0 || slot_spec(*plan_, slot).end == RunEnd::error) ended_by_ = slot;
+  }
+}
+
+std::string Simulator::end_reason() const {
+  if (ended_by_ < 0) return {};
+  return fmt::format("{}: {}", plan_->instance(plan_->owner[ended_by_]).name,
+                     slot_spec(*plan_, ended_by_).doc);
 }
 
 void Simulator::watch_progress(double t) {
@@ -242,7 +266,7 @@ void Simulator::log_instant(bool was_asked) {
   log_.read(workspace_.values, row_after_);
   const bool jump = !row_before_.empty() && row_before_ != row_after_;
   if (jump && log_options_.event_rows == EventRows::both) log_.append_row(row_before_);
-  if (jump || was_asked || time_ >= settings_.stop) log_.append_row(row_after_);
+  if (jump || was_asked || time_ >= settings_.stop || ended_by_ >= 0) log_.append_row(row_after_);
 }
 
 void Simulator::run(const std::function<bool(double)>& progress) {

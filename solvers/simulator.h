@@ -44,6 +44,9 @@ class Simulator {
   /// Throws SimulationError; what was logged stays.
   bool advance();
 
+  /// Why the run ended before the stop time, in words; empty when it did not.
+  std::string end_reason() const;
+
   /// Runs to the stop time. `progress` gets the part done, from 0 to 1, and stops the run by giving false.
   void run(const std::function<bool(double)>& progress = {});
 
@@ -80,6 +83,7 @@ class Simulator {
   void instant(double t, double tick, bool located);
   void find_due(double t, double tick, bool located);
   void check_alarms(double t) const;
+  void find_end();
   void watch_progress(double t);
 
   void log_at(double t);
@@ -109,6 +113,7 @@ class Simulator {
   double last_event_ = -1.0;
   int close_events_ = 0;     // located events in a row without progress
   std::vector<int> recent_;  // what fired in them, as Zeros counts
+  int ended_by_ = -1;        // slot of the held value that ended the run
   RunStatistics statistics_;
   Profiler* profiler_ = nullptr;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "blocks/random.h"
 #include "solvers/errors.h"
 
 namespace flyball {
@@ -20,6 +21,14 @@ Workspace<T>::Workspace(const Plan& plan)
   for (auto make : plan.first_objects) objects.push_back(make());
   for (auto make : plan.first_memories) memories.push_back(make());
   for (const Start& literal : plan.literals) values[literal.slot] = T(literal.value);
+  seed(plan, *this, plan.diagram->simulation.seed);
+}
+
+template <class T>
+void seed(const Plan& plan, Workspace<T>& workspace, std::uint64_t number) {
+  for (const int slot : plan.streams) {
+    workspace.values[slot] = T(random_stream(number, plan.instance(plan.owner[slot]).name));
+  }
 }
 
 template <class T>
@@ -75,6 +84,8 @@ void initialise(const Plan& plan, Workspace<T>& workspace) {
 
 template struct Workspace<double>;
 template struct Workspace<Jet>;
+template void seed(const Plan&, Workspace<double>&, std::uint64_t);
+template void seed(const Plan&, Workspace<Jet>&, std::uint64_t);
 template void derive(const Plan&, Workspace<double>&);
 template void derive(const Plan&, Workspace<Jet>&);
 template void initialise(const Plan&, Workspace<double>&);

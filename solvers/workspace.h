@@ -89,6 +89,10 @@ void initialise(const Plan& plan, Workspace<T>& workspace);
 /// Gives a Jet workspace the numbers and bits of another one, without derivatives.
 void lift(const Workspace<double>& from, Workspace<Jet>& to);
 
+/// Gives each noise block its own random numbers.
+template <class T>
+void seed(const Plan& plan, Workspace<T>& workspace, std::uint64_t number);
+
 /// Recomputes derived parameters after a parameter was set.
 template <class T>
 void derive(const Plan& plan, Workspace<T>& workspace);

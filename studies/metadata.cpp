@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "studies/hash.h"
+#include "blocks/hash.h"
 #include "studies/versions.h"
 
 namespace flyball {
@@ -17,6 +17,7 @@ Json model_of(const RunResult& result, const RunInputs& inputs) {
                 {"source", result.plan->diagram->source},
                 {"hash", fingerprint(inputs.model_text)},
                 {"set", Json::object()}};
+  for (const DataFile& file : result.plan->diagram->data_files) model["data"][file.name] = file.hash;
   for (const Override& value : inputs.overrides) model["set"][value.name] = value.value;
   return model;
 }
@@ -62,11 +63,17 @@ Json last_row_of(const Log& log) {
 
 std::string metadata_json(const RunResult& result, const RunInputs& inputs, std::string_view csv_name,
                           std::string_view csv) {
-  Json json = {{"flyball", flyball_version()},      {"status", to_string(result.status)},
-               {"reason", result.reason},           {"model", model_of(result, inputs)},
-               {"stop", result.settings.stop},      {"end", result.end},
-               {"solver", solver_of(result)},       {"rows", result.log.rows()},
-               {"columns", columns_of(result.log)}, {"last_row", last_row_of(result.log)},
+  Json json = {{"flyball", flyball_version()},
+               {"status", to_string(result.status)},
+               {"reason", result.reason},
+               {"model", model_of(result, inputs)},
+               {"seed", result.settings.seed},
+               {"stop", result.settings.stop},
+               {"end", result.end},
+               {"solver", solver_of(result)},
+               {"rows", result.log.rows()},
+               {"columns", columns_of(result.log)},
+               {"last_row", last_row_of(result.log)},
                {"libraries", Json::object()}};
   for (const Version& library : library_versions()) json["libraries"][library.name] = library.number;
   if (!csv.empty()) json["csv"] = {{"file", csv_name}, {"checksum", fingerprint(csv)}};

@@ -37,6 +37,7 @@ RunResult run(Simulator& simulator, std::shared_ptr<const Plan> plan, const Simu
     result.status = RunStatus::stopped;
     result.reason = error.what();
   }
+  if (result.reason.empty()) result.reason = simulator.end_reason();
   result.wall_time = std::chrono::duration<double>(Clock::now() - start).count();
   result.log = simulator.log();
   result.statistics = simulator.statistics();

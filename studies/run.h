@@ -26,8 +26,8 @@ struct RunResult {
   double end = 0.0;        // simulated time that was reached, s
   double wall_time = 0.0;  // s
   RunStatus status = RunStatus::finished;
-  std::string reason = {};  // of a stop
   std::optional<Profile> profile = {};
+  std::string reason = {};  // of a stop, and of an end before the stop time that the model asked for
 };
 
 /// Runs a plan once. `progress` gets the part done, from 0 to 1, and interrupts the run by giving false.

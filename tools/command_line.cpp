@@ -57,6 +57,7 @@ void add_solver_options(CLI::App* command, RunOptions& options) {
   command->add_option("--solver", options.method, "Method of integration")
       ->check(CLI::IsMember(stepper_methods()))
       ->type_name("METHOD");
+  command->add_option("--seed", options.seed, "Seed of all random numbers")->type_name("NUMBER");
   add_positive(command, "--rtol", options.rtol, "1", "Relative tolerance");
   add_positive(command, "--atol", options.atol, "1", "Absolute tolerance");
   add_positive(command, "--max-step", options.max_step, "s", "Longest step of a variable-step method");

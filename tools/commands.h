@@ -23,6 +23,7 @@ struct RunOptions {
   std::vector<Override> overrides;
   // What replaces the model's [simulation].
   std::optional<double> stop, rtol, atol, max_step, step;
+  std::optional<std::uint64_t> seed;
   std::optional<Rational> log_interval;
   std::optional<std::string> method;
   EventRows event_rows = EventRows::both;

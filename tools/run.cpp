@@ -23,6 +23,7 @@ SimulationSettings settings_of(const RunOptions& options, SimulationSettings set
   settings.rtol = options.rtol.value_or(settings.rtol);
   settings.atol = options.atol.value_or(settings.atol);
   settings.method = options.method.value_or(settings.method);
+  settings.seed = options.seed.value_or(settings.seed);
   if (options.max_step) settings.max_step = options.max_step;
   if (options.step) settings.step = options.step;
   if (options.log_interval) settings.log_interval = options.log_interval;

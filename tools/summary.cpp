@@ -13,7 +13,10 @@ std::string reason_of(const RunResult& result, bool from_command_line) {
 }
 
 std::string ending(const RunResult& result) {
-  return fmt::format("{} at t = {:.10g} s, after {:.3g} s", to_string(result.status), result.end,
+  const std::string reason = result.status != RunStatus::finished || result.reason.empty()
+                                 ? ""
+                                 : fmt::format(" ({})", result.reason);
+  return fmt::format("{} at t = {:.10g} s{}, after {:.3g} s", to_string(result.status), result.end, reason,
                      result.wall_time);
 }
 

@@ -278,4 +278,52 @@ std::string discrete_with_states(const Names& states) {
                 states.front(), more);
 }
 
+std::string in_data_file(Text problem) { return std::string(problem); }
+
+std::string file_too_large(std::size_t limit) {
+  return format("the file is larger than {} GB", limit / 1'000'000'000);
+}
+
+std::string control_character(char found) {
+  return format("the control character 0x{:02x} is not taken", static_cast<unsigned char>(found));
+}
+
+std::string csv_empty() { return "expected a header of column names, found an empty file"; }
+
+std::string csv_without_rows() { return "expected a row of numbers after the header, found none"; }
+
+std::string csv_row_width(int expected, int found) {
+  return format("expected {} numbers, one for each column of the header, found {}", expected, found);
+}
+
+std::string csv_quote_inside() { return "a quote stands inside a field that does not begin with one"; }
+
+std::string csv_quote_open() { return "the quote is not closed on its line"; }
+
+std::string csv_after_quote() { return "expected a comma or the end of the line after the quote"; }
+
+std::string csv_column_without_name() { return "expected the name of a column, found none"; }
+
+std::string csv_column_twice(Text name) { return format("the column \"{}\" stands twice", name); }
+
+std::string csv_not_finite(Text number) { return format("expected a finite number, found {}", number); }
+
+std::string csv_not_a_number(Text field) {
+  return field.empty() ? "expected a number, found nothing"
+                       : format("expected a number, found \"{}\"", field);
+}
+
+std::string csv_time_alone() {
+  return "expected a column of time and at least one more, separated by commas";
+}
+
+std::string csv_unknown_column(Text name, const Names& known) {
+  if (name.empty()) return format("the file has several columns: name one of {}", fmt::join(known, ", "));
+  return format("there is no column \"{}\"", name) + suggestion(name, known);
+}
+
+std::string csv_time_falls(double before, double after) {
+  return format("time falls from {} s to {} s", before, after);
+}
+
 }  // namespace flyball::message

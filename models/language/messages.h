@@ -103,6 +103,24 @@ std::string not_connected(Text input, Text unit, Text doc);
 std::string nothing_to_log(Text block);
 std::string logged_object(Text port);
 
+// Files of values.
+std::string in_data_file(Text problem);
+std::string file_too_large(std::size_t limit);
+std::string control_character(char found);
+std::string csv_empty();
+std::string csv_without_rows();
+std::string csv_row_width(int expected, int found);
+std::string csv_quote_inside();
+std::string csv_quote_open();
+std::string csv_after_quote();
+std::string csv_column_without_name();
+std::string csv_column_twice(Text name);
+std::string csv_not_finite(Text number);
+std::string csv_not_a_number(Text field);
+std::string csv_time_alone();
+std::string csv_unknown_column(Text name, const Names& known);
+std::string csv_time_falls(double before, double after);
+
 // Simulation.
 std::string unknown_method(Text name, const Names& known);
 std::string discrete_with_states(const Names& states);

@@ -146,4 +146,47 @@ TEST_CASE("StateSpace starts at its initial state, and has vector ports where it
   CHECK(std::ranges::count(object.reads[y2], u1) == 0);
 }
 
+TEST_CASE("ZeroPole responds as its zeros, poles and gain, in any mixture of pairs") {
+  using Complex = std::complex<double>;
+  struct Roots {
+    Numbers real;
+    Table complex;
+  };
+  const auto product = [](const Roots& roots, Complex s) {
+    Complex result = 1.0;
+    for (const double r : roots.real) result *= s - r;
+    for (const Numbers& pair : roots.complex) {
+      result *= (s - Complex(pair[0], pair[1])) * (s - Complex(pair[0], -pair[1]));
+    }
+    return result;
+  };
+  const std::vector<std::pair<Roots, Roots>> cases{
+      {{{}, {}}, {{-2.0}, {}}},
+      {{{-3.0}, {}}, {{-2.0}, {}}},
+      {{{-3.0}, {}}, {{-2.0, 0.0}, {}}},
+      {{{0.0, -3.0}, {}}, {{}, {{-1.0, 2.0}}}},
+      {{{}, {{0.0, 4.0}}}, {{-1.0, -2.0, -5.0}, {}}},
+      {{{-1.0, 5.0, -6.0}, {}}, {{-4.0}, {{-1.0, 2.0}}}},
+      {{{-3.0}, {{-2.0, 1.0}}}, {{-1.0, -2.0, -3.0}, {{-1.0, 1.0}, {0.0, 3.0}}}},
+  };
+  for (const auto& [zeros, poles] : cases) {
+    Keys keys{{"gain", 2.5}};
+    if (!zeros.real.empty()) keys["zeros"] = zeros.real;
+    if (!zeros.complex.empty()) keys["complex_zeros"] = zeros.complex;
+    if (!poles.real.empty()) keys["poles"] = poles.real;
+    if (!poles.complex.empty()) keys["complex_poles"] = poles.complex;
+    Device d("ZeroPole", keys);
+    std::vector<std::string> states;
+    const std::size_t order = poles.real.size() + 2 * poles.complex.size();
+    for (std::size_t k = 1; k <= order; ++k) states.push_back("x" + std::to_string(k));
+    for (const Complex s : {Complex(0.5, 1.0), Complex(2.0, -5.0)}) {
+      const Complex expected = 2.5 * product(zeros, s) / product(poles, s);
+      INFO("order " << order << ", s = " << s);
+      // The resolvent of at most seven states loses two digits.
+      CHECK(std::abs(response(d, states, "u", "y", s) - expected) <=
+            100 * 0x1p-50 * (1.0 + std::abs(expected)));
+    }
+  }
+}
+
 }  // namespace flyball::test

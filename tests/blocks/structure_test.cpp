@@ -91,4 +91,36 @@ TEST_CASE("coefficients are parameters, and a literal 0 is none") {
   CHECK(names == std::vector<std::string>{"numerator[0]", "denominator[0]", "denominator[2]"});
 }
 
+TEST_CASE("Selector picks elements that are there") {
+  CHECK(refusals("Selector", {{"width", 3.0}, {"indices", Numbers{1.0, 4.0}}}) ==
+        Refusals{"indices: expected whole numbers from 1 to 3, found 4"});
+  CHECK(refusals("Selector", {{"indices", Numbers{}}}) ==
+        Refusals{"indices: expected whole numbers from 1 to 2, found an empty list"});
+}
+
+TEST_CASE("Delay wants one initial value for each sample time of its length") {
+  CHECK(refusals("Delay",
+                 {{"sample_time", Rational(1)}, {"length", 3.0}, {"initial_values", Numbers{1.0, 2.0}}}) ==
+        Refusals{"initial_values: expected 3 numbers, as many as `length`, found 2"});
+}
+
+TEST_CASE("ZeroPole refuses more zeros than poles, and pairs that are none") {
+  CHECK(refusals("ZeroPole", {{"zeros", Numbers{1.0, 2.0}}, {"poles", Numbers{-1.0}}}) ==
+        Refusals{"zeros: expected at most 1, the number of poles, found 2"});
+  CHECK(refusals("ZeroPole", {{"complex_poles", Table{{-1.0, 2.0, 3.0}}}}) ==
+        Refusals{"complex_poles: expected pairs [re, im]"});
+}
+
+TEST_CASE("RepeatingSequence wants as many values as times") {
+  CHECK(refusals("RepeatingSequence", {{"times", Numbers{0.0, 1.0}}, {"values", Numbers{1.0, 2.0, 3.0}}}) ==
+        Refusals{"values: expected 2 values, one for each time, found 3"});
+  CHECK(refusals("RepeatingSequence", {{"times", Numbers{1.0}}, {"values", Numbers{1.0}}}) ==
+        Refusals{"times: expected at least two times"});
+}
+
+TEST_CASE("FromFile needs a file") {
+  CHECK(refusals("FromFile", {{"before", "zero"s}}) ==
+        Refusals{": expected a file, such as file = \"step.csv\""});
+}
+
 }  // namespace flyball::test

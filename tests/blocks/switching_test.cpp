@@ -122,4 +122,14 @@ TEST_CASE("DifferentialDrive moves along its heading, counter-clockwise when the
   CHECK(std::fabs(d.rate("theta") - 0.4) <= roundings);
 }
 
+TEST_CASE("Selector passes the elements that it names, in their order") {
+  const BlockObject object = create("Selector", {{"width", 3.0}, {"indices", Numbers{3.0, 1.0, 3.0}}});
+  const Specification& spec = *object.specification;
+  REQUIRE(spec.passed.size() == 3);
+  for (const auto& [output, input] : {std::pair{0, 2}, {1, 0}, {2, 2}}) {
+    CHECK(spec.passed[output].input == spec.port("u")->slots[input]);
+    CHECK(spec.passed[output].output == spec.port("y")->slots[output]);
+  }
+}
+
 }  // namespace flyball::test

@@ -14,8 +14,8 @@ namespace flyball::test {
 using Numbers = std::vector<double>;
 using Table = std::vector<Numbers>;
 using Words = std::vector<std::string>;
-using Value =
-    std::variant<double, bool, std::string, Rational, Words, Numbers, Table, std::shared_ptr<const Formula>>;
+using Value = std::variant<double, bool, std::string, Rational, Words, Numbers, Table,
+                           std::shared_ptr<const Formula>, std::shared_ptr<const TimeSeries>>;
 using Keys = std::map<std::string, Value, std::less<>>;
 
 /// The text of a block as a table in memory. A value of the wrong kind is a mistake of the test, so it
@@ -30,6 +30,11 @@ class TableSettings : public Settings {
   bool given(std::string_view key) const override { return keys_.contains(key); }
   std::optional<std::string> text(std::string_view key) override { return get<std::string>(key); }
   std::optional<long> integer(std::string_view key) override { return get<double>(key); }
+  std::optional<std::vector<long>> integers(std::string_view key) override {
+    const auto numbers = get<Numbers>(key);
+    if (!numbers) return std::nullopt;
+    return std::vector<long>(numbers->begin(), numbers->end());
+  }
   std::optional<bool> flag(std::string_view key) override { return get<bool>(key); }
   std::optional<Rational> exact(std::string_view key) override { return get<Rational>(key); }
   std::optional<std::vector<std::string>> list(std::string_view key) override { return get<Words>(key); }
@@ -46,6 +51,9 @@ class TableSettings : public Settings {
   }
   std::shared_ptr<const Formula> formula(std::string_view key, const std::vector<std::string>&) override {
     return get<std::shared_ptr<const Formula>>(key).value_or(nullptr);
+  }
+  std::shared_ptr<const TimeSeries> time_series(std::string_view file, std::string_view) override {
+    return get<std::shared_ptr<const TimeSeries>>(file).value_or(nullptr);
   }
   void refuse(std::string_view key, std::string message) override {
     refused_.push_back(std::string(key) + ": " + message);

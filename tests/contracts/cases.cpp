@@ -15,8 +15,17 @@ std::vector<Case> function_cases() {
   std::vector<Case> all;
   for (const char* function : {"cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "atan2"}) {
     // asin and acos end at 1, tan at pi/2.
-    all.push_back({"TrigonometricFunction", function, {{"function", std::string(function)}}, 0.9});
+    all.push_back({"TrigonometricFunction", function, {{"function", std::string(function)}}, {0.9}});
   }
+  for (const char* function :
+       {"log", "10^u", "log10", "square", "sqrt", "reciprocal", "pow", "hypot", "rem", "mod"}) {
+    const bool positive =
+        function == "log"s || function == "log10"s || function == "sqrt"s || function == "pow"s;
+    all.push_back({"MathFunction", function, {{"function", std::string(function)}}, {2.0, positive}});
+  }
+  all.push_back({"Divide", "a divisor that jumps", {{"divisor_jumps", true}}});
+  all.push_back({"MinMax", "greatest of four", {{"function", "max"s}, {"inputs", 4.0}}});
+  all.push_back({"MinMax", "one", {{"inputs", 1.0}}});
   all.push_back({"Sum", "five terms", {{"signs", "+-+--"s}}});
   all.push_back({"Sum", "one term", {{"signs", "-"s}}});
   all.push_back({"Product", "divisors", {{"signs", "/*/"s}}});
@@ -25,6 +34,7 @@ std::vector<Case> function_cases() {
   all.push_back({"Expression", "parameters", {{"inputs", Words{"w"}}, {"formula", example_formula()}}});
   all.push_back({"Mux", "five", {{"inputs", 5.0}}});
   all.push_back({"Demux", "one", {{"outputs", 1.0}}});
+  all.push_back({"Selector", "two of three", {{"width", 3.0}, {"indices", Numbers{3.0, 1.0}}}});
   return all;
 }
 
@@ -43,6 +53,13 @@ std::vector<Case> continuous_cases() {
        "leading zeros",
        {{"numerator", Numbers{0.0, 0.0, 0.0, 4.0, 1.0}}, {"denominator", Numbers{1.0, 2.0, 0.0, 5.0}}}},
       {"TransferFcn", "order 0", {{"numerator", Numbers{2.0}}, {"denominator", Numbers{4.0}}}},
+      {"ZeroPole",
+       "fifth order",
+       {{"zeros", Numbers{-1.0}},
+        {"complex_zeros", Table{{-1.0, 2.0}}},
+        {"poles", Numbers{-1.0, -2.0, -3.0}},
+        {"complex_poles", Table{{-1.0, 3.0}}}}},
+      {"ZeroPole", "a zero between pairs", {{"zeros", Numbers{-1.0}}, {"complex_poles", Table{{-1.0, 3.0}}}}},
       {"StateSpace",
        "two by two",
        {{"A", Table{{0.0, 1.0}, {-2.0, -3.0}}},
@@ -56,6 +73,53 @@ std::vector<Case> continuous_cases() {
         {"B", Table{{0.0}, {1.0}}},
         {"C", Table{{1.0, 0.0}, {0.0, 1.0}}}}},
   };
+}
+
+std::vector<Case> source_cases() {
+  const auto rows =
+      std::make_shared<const TimeSeries>(TimeSeries{"m", {0.5, 1.5, 1.5, 2.0}, {1.0, 3.0, -1.0, 2.0}});
+  std::vector<Case> all{{"RepeatingSequence", "hold", {{"interpolation", "hold"s}}}};
+  for (const char* outside : {"hold", "linear", "zero"}) {
+    all.push_back({"FromFile",
+                   outside,
+                   {{"file", rows}, {"before", std::string(outside)}, {"after", std::string(outside)}}});
+  }
+  all.push_back({"FromFile", "steps", {{"file", rows}, {"interpolation", "hold"s}}});
+  return all;
+}
+
+std::vector<Case> sampled_cases() {
+  const Rational tenth = *Rational::fraction(1, 10);
+  std::vector<Case> all{
+      {"Delay",
+       "initial values",
+       {{"sample_time", tenth}, {"length", 3.0}, {"initial_values", Numbers{1.0, 0.0, 2.0}}}},
+      {"DiscreteTransferFcn",
+       "second order",
+       {{"sample_time", tenth}, {"numerator", Numbers{2.0, 1.0}}, {"denominator", Numbers{1.0, 0.0, 0.5}}}},
+      {"DiscreteTransferFcn",
+       "biproper",
+       {{"sample_time", tenth}, {"numerator", Numbers{2.0, 1.0}}, {"denominator", Numbers{3.0, 1.0}}}},
+      {"DiscreteStateSpace",
+       "two inputs",
+       {{"sample_time", tenth},
+        {"A", Table{{0.0, 1.0}, {-0.5, 0.2}}},
+        {"B", Table{{1.0, 0.0}, {0.5, 1.0}}},
+        {"C", Table{{1.0, 2.0}}},
+        {"D", Table{{0.0, 3.0}}},
+        {"initial", Numbers{0.0, 3.0}}}},
+      {"Counter", "reset", {{"reset", true}, {"direction", "either"s}}},
+  };
+  for (const char* method : {"forward", "backward", "trapezoidal"}) {
+    const Keys keys{{"sample_time", tenth}, {"method", std::string(method)}};
+    for (const char* reset : {"rising", "falling", "either"}) {
+      Keys more{{"reset", std::string(reset)}, {"lower", -1.0}, {"upper", 1.0}};
+      more.insert(keys.begin(), keys.end());
+      all.push_back({"DiscreteTimeIntegrator", method + ", reset "s + reset, more});
+    }
+    all.push_back({"DiscreteTimeIntegrator", method, keys});
+  }
+  return all;
 }
 
 std::vector<Case> controller_cases() {
@@ -81,14 +145,22 @@ std::vector<Case> controller_cases() {
   return all;
 }
 
+double default_span(const std::string& type) {
+  if (type == "TrigonometricFunction") return 0.9;
+  // Slow enough for a difference quotient of its phase, which grows with the square of time.
+  if (type == "Chirp") return 0.1;
+  return 2.0;
+}
+
 }  // namespace
 
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const BlockType& type : catalogue()) {
-    all.push_back({type.name, "default", {}, type.name == "TrigonometricFunction" ? 0.9 : 2.0});
+    all.push_back({type.name, "default", {}, {default_span(type.name)}});
   }
-  for (auto more : {function_cases(), continuous_cases(), controller_cases()}) {
+  for (auto more :
+       {function_cases(), continuous_cases(), source_cases(), sampled_cases(), controller_cases()}) {
     all.insert(all.end(), more.begin(), more.end());
   }
   return all;
@@ -106,13 +178,14 @@ double Random::uniform(double lower, double upper) {
   return lower + (upper - lower) * std::ldexp(static_cast<double>(word() >> 11), -53);
 }
 
-double draw(const SlotSpec& slot, double span, Random& random) {
+double draw(const SlotSpec& slot, const Domain& domain, Random& random) {
   if (slot.kind == SlotKind::time) return random.uniform(0.0, 5.0);
   if (slot.kind == SlotKind::held && random.word() % 3 == 0) return 0.0;
   const bool bounded_below = std::isfinite(slot.range.lower), bounded_above = std::isfinite(slot.range.upper);
   if (!bounded_below && !bounded_above) {
     // Divisors stay a tenth of the span away from 0, so that difference quotients are meaningful.
-    return std::copysign(random.uniform(0.1 * span, span), random.uniform(-1.0, 1.0));
+    const double size = random.uniform(0.1 * domain.span, domain.span);
+    return domain.positive ? size : std::copysign(size, random.uniform(-1.0, 1.0));
   }
   const double lower = bounded_below ? slot.range.lower : slot.range.upper - 3.0;
   const double upper = bounded_above ? slot.range.upper : lower + 3.0;
@@ -120,10 +193,10 @@ double draw(const SlotSpec& slot, double span, Random& random) {
   return random.uniform(lower + 0.1 * (upper - lower), upper - 0.1 * (upper - lower));
 }
 
-void draw_all(Bench<double>& bench, double span, Random& random) {
+void draw_all(Bench<double>& bench, const Domain& domain, Random& random) {
   for (std::size_t at = 0; at < bench.values.size(); ++at) {
     const SlotSpec& slot = bench.spec().slots[at % bench.size()];
-    bench.values[at] = draw(slot, span, random);
+    bench.values[at] = draw(slot, domain, random);
     bench.bits[at] = random.word() % 2;
   }
 }

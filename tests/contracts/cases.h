@@ -9,12 +9,18 @@
 
 namespace flyball::test {
 
+/// What signals are drawn from, as the function's domain allows: (-span, span), or (0, span).
+struct Domain {
+  double span = 2.0;
+  bool positive = false;
+};
+
 /// A structure of a block type that the contracts are checked on.
 struct Case {
   std::string type;
   std::string label;
   Keys keys;
-  double span = 2.0;  // signals are drawn from (-span, span): what the function's domain allows
+  Domain domain = {};
 
   BlockObject object() const { return create(type, keys); }
 };
@@ -35,10 +41,10 @@ class Random {
 
 /// A value for a slot: parameters inside their range, held values 0 a third of the time, since 0 is what they
 /// branch on.
-double draw(const SlotSpec& slot, double span, Random& random);
+double draw(const SlotSpec& slot, const Domain& domain, Random& random);
 
 /// Draws every number of every instance, and the bits of its relations.
-void draw_all(Bench<double>& bench, double span, Random& random);
+void draw_all(Bench<double>& bench, const Domain& domain, Random& random);
 
 /// A result of a phase: where its number is found after `run`.
 struct Result {

@@ -12,7 +12,7 @@ const std::vector<int>& derived(const BlockObject& object, const Result& result)
 }
 
 /// Whether another value of slot `s` (another bit, of a relation) changes the result at this point.
-bool changes(Bench<double>& bench, const Result& result, int s, double span, Random& random) {
+bool changes(Bench<double>& bench, const Result& result, int s, const Domain& domain, Random& random) {
   bench.run(result.phase);
   const double before = result.in(bench)[result.slot];
   const SlotSpec& slot = bench.spec().slots[s];
@@ -20,7 +20,7 @@ bool changes(Bench<double>& bench, const Result& result, int s, double span, Ran
   if (slot.kind == SlotKind::relation) {
     bench.bits[s] ^= 1;
   } else {
-    bench.values[s] = slot.kind == SlotKind::held && value != 0.0 ? 0.0 : draw(slot, span, random);
+    bench.values[s] = slot.kind == SlotKind::held && value != 0.0 ? 0.0 : draw(slot, domain, random);
   }
   bench.run(result.phase);
   const double after = result.in(bench)[result.slot];
@@ -43,8 +43,8 @@ void check(const Case& c, const BlockObject& object, const Result& result) {
     // Enough points for each combination of four bits to be met: the chance to miss one is (15/16)^200 <
     // 3e-6.
     for (int point = 0; point < 200 && !changed; ++point) {
-      draw_all(bench, c.span, random);
-      changed = changes(bench, result, s, c.span, random);
+      draw_all(bench, c.domain, random);
+      changed = changes(bench, result, s, c.domain, random);
     }
     const bool reads = std::ranges::binary_search(derived(object, result), s);
     INFO(c.type << " (" << c.label << "): " << name << " and " << slot.name);

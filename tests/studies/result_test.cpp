@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "blocks/hash.h"
 #include "studies/file.h"
-#include "studies/hash.h"
 #include "tests/catch.h"
 #include "tests/studies/temporary_folder.h"
 

@@ -278,3 +278,29 @@ TEST_CASE("Diode rectifier: the current of the loop is that of Lambert's W") {
   CHECK(worst < 1e-12);   // A; the exponents, up to 20 and 200, carry some hundred roundings
   CHECK(greatest > 0.2);  // the first pulse fills the empty capacitor
 }
+
+TEST_CASE("Recorded command: the motor follows the rows of the file, and the noise has its deviation") {
+  Model model = shipped("classic/recorded_command");
+  model.settings.stop = 2.0;
+  Run run(model);
+  run.finish();
+  const double rpm = M_PI / 30.0, tau = 0.1;
+  // w = c(t) - s tau + (w0 - c0 + s tau) exp(-(t - t0)/tau) over a piece of slope s that begins with c0.
+  const auto after = [&](double w0, double c0, double c1, double duration) {
+    const double s = (c1 - c0) / duration;
+    return c1 - s * tau + (w0 - c0 + s * tau) * std::exp(-duration / tau);
+  };
+  double w = after(0.0, 0.0, 300.0 * rpm, 0.5);
+  w = after(w, 300.0 * rpm, 300.0 * rpm, 0.5);
+  CHECK(weighted(run.logged("motor", 1.0), w, model.settings) < 500);
+  w = after(w, -150.0 * rpm, -150.0 * rpm, 1.0);
+  // Two hundred hits, each with a few steps within the tolerance.
+  CHECK(weighted(run.logged("motor", 2.0), w, model.settings) < 500);
+  double squares = 0.0;
+  for (int k = 0; k < 200; ++k) {
+    const double error = (run.logged("sensor", k / 100.0) - run.logged("motor", k / 100.0)) / 0.5;
+    squares += error * error / 200.0;
+  }
+  // Four standard deviations of a mean of 200 squares.
+  CHECK(std::fabs(squares - 1.0) < 4.0 * std::sqrt(2.0 / 200.0));
+}

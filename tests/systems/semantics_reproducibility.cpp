@@ -103,3 +103,56 @@ TEST_CASE("S33: a multistep method begins anew at a checkpoint, within the toler
       CHECK(std::fabs(whole.workspace().values[k] - second.workspace().values[k]) < 1e-3);
   }
 }
+
+namespace {
+
+/// Some hits of a noise block that drives a plant, under a method and a tolerance.
+std::vector<double> noise(const std::string& method, double rtol, std::uint64_t seed,
+                          const std::string& more = "") {
+  Model model = read_model(R"toml(
+flyball = 1
+[blocks]
+noise = { type = "RandomNumber", sample_time = "10 ms" }
+plant = { type = "TransferFcn" }
+)toml" + more + R"toml(
+[diagram]
+wires = ["noise -> plant"]
+log = ["noise"]
+[simulation]
+stop = "1 s"
+log_interval = "10 ms"
+)toml");
+  model.settings.method = method;
+  model.settings.rtol = rtol;
+  model.settings.seed = seed;
+  return Run(model, {true, EventRows::after}).finish().column("noise");
+}
+
+}  // namespace
+
+TEST_CASE("S37: random numbers depend on seed, name and hit, and on nothing else") {
+  const std::vector<double> reference = noise("dp5", 1e-6, 1);
+  CHECK(reference.size() == 101);
+  CHECK(same_bits(reference, noise("dp5", 1e-10, 1)));
+  CHECK(same_bits(reference, noise("bdf", 1e-6, 1)));
+  CHECK(same_bits(reference, noise("euler", 1e-6, 1)));
+  CHECK(same_bits(reference,
+                  noise("dp5", 1e-6, 1, "another = { type = \"RandomNumber\", sample_time = \"3 ms\" }")));
+  const std::vector<double> other = noise("dp5", 1e-6, 2);
+  for (std::size_t k = 0; k < reference.size(); ++k) CHECK(reference[k] != other[k]);
+}
+
+TEST_CASE("S37: blocks of one structure have numbers of their own") {
+  Run run(R"toml(
+flyball = 1
+[blocks]
+a = { type = "RandomNumber", sample_time = "10 ms" }
+b = { type = "RandomNumber", sample_time = "10 ms" }
+[diagram]
+log = ["a", "b"]
+[simulation]
+stop = "0.1 s"
+)toml");
+  run.finish();
+  CHECK(run["a.y"] != run["b.y"]);
+}

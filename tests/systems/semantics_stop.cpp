@@ -237,3 +237,85 @@ x = { type = "Integrator" }
     CHECK(std::fabs(run.logged("x", t) - 2.0 / 3.0 * (1.0 - std::pow(1.0 - t, 1.5))) < 1e-5);
   }
 }
+
+namespace {
+
+// A ball that falls from 1 m for 0.4515 s.
+constexpr auto falling = R"toml(
+flyball = 1
+[blocks]
+ball = { type = "BouncingBall" }
+guard = { type = "GUARD", threshold = 0.5, message = "half way down" }
+[diagram]
+wires = ["ball.height -> guard"]
+log = ["ball.height", "ball.velocity"]
+[simulation]
+stop = "10 s"
+log_interval = "50 ms"
+solver = { method = "METHOD" }
+)toml";
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
+
+// Of 9.81/2 t^2 = 1/2.
+const double half_way = std::sqrt(1.0 / 9.81);
+
+}  // namespace
+
+TEST_CASE("S36: Assertion stops the run with its message, after the instant") {
+  for (const std::string method : {"dp5", "bdf"}) {
+    INFO(method);
+    Run run(replaced(replaced(falling, "GUARD", "Assertion"), "METHOD", method));
+    const SimulationError error = run.stop();
+    CHECK(error.kind() == Kind::asserted);
+    CHECK_THAT(error.what(), Catch::StartsWith("guard: half way down at t = 0.319"));
+    // Some steps within rtol = 1e-6.
+    CHECK(std::fabs(error.time() - half_way) < 1e-5);
+    CHECK(run["guard.failed"] == 1.0);
+    CHECK(run.times().back() == error.time());
+  }
+}
+
+TEST_CASE("S36: StopSimulation ends the run as its stop time would") {
+  std::string text = replaced(replaced(falling, "GUARD", "StopSimulation"), "METHOD", "dp5");
+  text = replaced(text, "\"ball.height -> guard\"", "\"ball.height -> back -> guard\"");
+  text = replaced(text, "[blocks]", "[blocks]\nback = { type = \"Gain\", gain = -1.0 }");
+  Run run(replaced(text, "threshold = 0.5", "threshold = -0.5"));
+  run.finish();
+  CHECK(std::fabs(run.time() - half_way) < 1e-12);
+  CHECK(run.simulator().end_reason() == "guard: half way down");
+  // The asked times before, and the end.
+  CHECK(run.times().size() == 8);
+  CHECK(run.times().back() == run.time());
+  CHECK_FALSE(run.advance());
+}
+
+TEST_CASE("S36: a divisor that passes zero is an error, and one that may jump is none") {
+  const std::string wires = R"toml("one -> ratio.u1", "divisor -> ratio.u2")toml";
+  const std::string one = "one = { type = \"Constant\" }\n";
+  Run passing(
+      model(one + "ratio = { type = \"Divide\" }\ndivisor = { type = \"Ramp\", slope = 0.7, initial = -1.0 }",
+            wires));
+  const SimulationError error = passing.stop();
+  CHECK_THAT(error.what(), Catch::StartsWith("ratio: the divisor u2 passes zero at t = 1.428"));
+  const std::string step = "divisor = { type = \"Step\", before = -1.0, after = 2.0 }";
+  Run jumping(model(one + "ratio = { type = \"Divide\", divisor_jumps = true }\n" + step, wires));
+  CHECK(jumping.finish()["ratio.y"] == 0.5);
+  CHECK_THROWS_AS(Run(model(one + "ratio = { type = \"Divide\" }\n" + step, wires)).finish(),
+                  SimulationError);
+}
+
+TEST_CASE(
+    "S36: an assertion that fails at the start stops the run there, and before an end that is asked for") {
+  Run run(model(R"toml(
+zero = { type = "Constant", value = 0.0 }
+one = { type = "Constant" }
+halt = { type = "StopSimulation" }
+check = { type = "Assertion" }
+)toml",
+                R"toml("zero -> check", "one -> halt")toml"));
+  const SimulationError error = run.stop();
+  CHECK(error.what() == std::string("check: the assertion failed at t = 0 s"));
+}

@@ -1,4 +1,4 @@
-#include "studies/hash.h"
+#include "blocks/hash.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,11 @@
+#pragma once
+#include "blocks/block.h"
+
+namespace flyball {
+
+struct Terminator : Block {
+  static constexpr auto summary = "Ends a signal that nobody reads.";
+  Input u = input("u", "any", "signal");
+};
+
+}  // namespace flyball

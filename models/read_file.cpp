@@ -1,0 +1,20 @@
+#include "models/read_file.h"
+
+#include <array>
+#include <cstdio>
+#include <memory>
+
+namespace flyball {
+
+std::optional<std::string> read_file_content(const std::string& file) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), std::fclose);
+  if (stream == nullptr) return std::nullopt;
+  std::string content;
+  std::array<char, 65536> chunk;
+  while (const std::size_t size = std::fread(chunk.data(), 1, chunk.size(), stream.get())) {
+    content.append(chunk.data(), size);
+  }
+  return std::ferror(stream.get()) != 0 ? std::nullopt : std::optional(std::move(content));
+}
+
+}  // namespace flyball
