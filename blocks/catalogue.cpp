@@ -1,33 +1,45 @@
 // The blocks, one line each, in the order of the reference: the family, which is the folder, and the class.
 // The file is named after the class (UnitDelay: unit_delay.h); the build reads these lines to compile each
 // family.
-#define FLYBALL_CATALOGUE(BLOCK)     \
-  BLOCK(sources, Constant)           \
-  BLOCK(sources, Step)               \
-  BLOCK(sources, SineWave)           \
-  BLOCK(sources, PulseGenerator)     \
-  BLOCK(sources, Clock)              \
-  BLOCK(math, Gain)                  \
-  BLOCK(math, Sum)                   \
-  BLOCK(math, Product)               \
-  BLOCK(math, Abs)                   \
-  BLOCK(math, TrigonometricFunction) \
-  BLOCK(math, Expression)            \
-  BLOCK(continuous, Integrator)      \
-  BLOCK(continuous, TransferFcn)     \
-  BLOCK(continuous, StateSpace)      \
-  BLOCK(discrete, UnitDelay)         \
-  BLOCK(discrete, ZeroOrderHold)     \
-  BLOCK(nonlinear, Saturation)       \
-  BLOCK(nonlinear, DeadZone)         \
-  BLOCK(nonlinear, Relay)            \
-  BLOCK(routing, Switch)             \
-  BLOCK(routing, Mux)                \
-  BLOCK(routing, Demux)              \
-  BLOCK(control, PID)                \
-  BLOCK(control, DiscretePID)        \
-  BLOCK(hybrid, BouncingBall)        \
-  BLOCK(robot, DifferentialDrive)
+#define FLYBALL_CATALOGUE(BLOCK)       \
+  BLOCK(sources, Constant)             \
+  BLOCK(sources, Step)                 \
+  BLOCK(sources, SineWave)             \
+  BLOCK(sources, PulseGenerator)       \
+  BLOCK(sources, Clock)                \
+  BLOCK(math, Gain)                    \
+  BLOCK(math, Sum)                     \
+  BLOCK(math, Product)                 \
+  BLOCK(math, Abs)                     \
+  BLOCK(math, TrigonometricFunction)   \
+  BLOCK(math, LogicalOperator)         \
+  BLOCK(math, RelationalOperator)      \
+  BLOCK(math, Expression)              \
+  BLOCK(continuous, Integrator)        \
+  BLOCK(continuous, Derivative)        \
+  BLOCK(continuous, TransferFcn)       \
+  BLOCK(continuous, StateSpace)        \
+  BLOCK(discrete, UnitDelay)           \
+  BLOCK(discrete, ZeroOrderHold)       \
+  BLOCK(discrete, DiscreteRateLimiter) \
+  BLOCK(discrete, DiscreteBacklash)    \
+  BLOCK(nonlinear, Saturation)         \
+  BLOCK(nonlinear, DeadZone)           \
+  BLOCK(nonlinear, Backlash)           \
+  BLOCK(nonlinear, Quantizer)          \
+  BLOCK(nonlinear, RateLimiter)        \
+  BLOCK(nonlinear, Relay)              \
+  BLOCK(nonlinear, HitCrossing)        \
+  BLOCK(routing, Switch)               \
+  BLOCK(routing, Mux)                  \
+  BLOCK(routing, Demux)                \
+  BLOCK(control, PID)                  \
+  BLOCK(control, DiscretePID)          \
+  BLOCK(hybrid, BouncingBall)          \
+  BLOCK(robot, DifferentialDrive)      \
+  BLOCK(robot, Unicycle)               \
+  BLOCK(robot, MecanumDrive)           \
+  BLOCK(robot, MecanumInverse)
 
 #include "blocks/registry.h"
 

@@ -86,6 +86,7 @@ inline Dependency log(Dependency x) { return curved(std::move(x)); }
 inline Dependency log10(Dependency x) { return curved(std::move(x)); }
 inline Dependency sqrt(Dependency x) { return curved(std::move(x)); }
 inline Dependency abs(Dependency x) { return curved(std::move(x)); }
+inline Dependency floor(Dependency x) { return curved(std::move(x)); }
 inline Dependency wrap(Dependency x) { return curved(std::move(x)); }
 inline Dependency pow(Dependency a, const Dependency& b) { return curved(a += b); }
 inline Dependency atan2(Dependency a, const Dependency& b) { return curved(a += b); }

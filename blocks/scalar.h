@@ -21,6 +21,7 @@ using std::atan2;
 using std::cos;
 using std::cosh;
 using std::exp;
+using std::floor;
 using std::hypot;
 using std::log;
 using std::log10;
@@ -33,6 +34,10 @@ using std::tanh;
 
 /// The time of an alarm that is not set.
 inline constexpr double never = std::numeric_limits<double>::infinity();
+
+/// Tells equal numbers from unequal ones in a relation, to which 0 means no change. Far below any difference
+/// of numbers that are not themselves next to it.
+inline constexpr double smallest = std::numeric_limits<double>::min();
 
 /// The truth value of a branch: bool, or for a Dependency the set that the truth depends on.
 template <class T>
