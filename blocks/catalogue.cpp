@@ -22,15 +22,20 @@
   BLOCK(math, Sign)                       \
   BLOCK(math, MinMax)                     \
   BLOCK(math, TrigonometricFunction)      \
+  BLOCK(math, LogicalOperator)            \
+  BLOCK(math, RelationalOperator)         \
   BLOCK(math, MathFunction)               \
   BLOCK(math, Expression)                 \
   BLOCK(continuous, Integrator)           \
+  BLOCK(continuous, Derivative)           \
   BLOCK(continuous, TransferFcn)          \
   BLOCK(continuous, StateSpace)           \
   BLOCK(continuous, ZeroPole)             \
   BLOCK(discrete, UnitDelay)              \
   BLOCK(discrete, Delay)                  \
   BLOCK(discrete, ZeroOrderHold)          \
+  BLOCK(discrete, DiscreteRateLimiter)    \
+  BLOCK(discrete, DiscreteBacklash)       \
   BLOCK(discrete, DiscreteTimeIntegrator) \
   BLOCK(discrete, DiscreteTransferFcn)    \
   BLOCK(discrete, DiscreteStateSpace)     \
@@ -38,7 +43,11 @@
   BLOCK(discrete, CounterLimited)         \
   BLOCK(nonlinear, Saturation)            \
   BLOCK(nonlinear, DeadZone)              \
+  BLOCK(nonlinear, Backlash)              \
+  BLOCK(nonlinear, Quantizer)             \
+  BLOCK(nonlinear, RateLimiter)           \
   BLOCK(nonlinear, Relay)                 \
+  BLOCK(nonlinear, HitCrossing)           \
   BLOCK(routing, Switch)                  \
   BLOCK(routing, Mux)                     \
   BLOCK(routing, Demux)                   \
@@ -49,7 +58,10 @@
   BLOCK(control, PID)                     \
   BLOCK(control, DiscretePID)             \
   BLOCK(hybrid, BouncingBall)             \
-  BLOCK(robot, DifferentialDrive)
+  BLOCK(robot, DifferentialDrive)         \
+  BLOCK(robot, Unicycle)                  \
+  BLOCK(robot, MecanumDrive)              \
+  BLOCK(robot, MecanumInverse)
 
 #include "blocks/registry.h"
 

@@ -40,6 +40,10 @@ using std::tanh;
 /// The time of an alarm that is not set.
 inline constexpr double never = std::numeric_limits<double>::infinity();
 
+/// Tells equal numbers from unequal ones in a relation, to which 0 means no change. Far below any difference
+/// of numbers that are not themselves next to it.
+inline constexpr double smallest = std::numeric_limits<double>::min();
+
 /// The truth value of a branch: bool, for a Dependency the set that the truth depends on, for lanes one each.
 template <class T>
 struct BitOf {

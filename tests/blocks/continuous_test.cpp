@@ -88,6 +88,11 @@ TEST_CASE("Integrator resets to its initial value when the reset input passes th
   }
 }
 
+TEST_CASE("Derivative responds as N s/(s + N)") {
+  Device d("Derivative", {{"N", 20.0}});
+  check_response(d, {"filtered"}, "u", "y", [](Complex s) { return 20.0 * s / (s + 20.0); });
+}
+
 TEST_CASE("TransferFcn responds as its fraction") {
   Device d("TransferFcn", {{"numerator", Numbers{1.0}}, {"denominator", Numbers{1.0, 2.0, 5.0}}});
   check_response(d, {"x1", "x2"}, "u", "y", [](Complex s) { return 1.0 / (s * s + 2.0 * s + 5.0); });

@@ -1,4 +1,4 @@
-// Nonlinear, routing, sampled, hybrid and robot blocks.
+// Nonlinear, routing, sampled and hybrid blocks.
 #include "tests/blocks/bench.h"
 #include "tests/catch.h"
 
@@ -62,6 +62,79 @@ TEST_CASE("Mux and Demux pass their elements without a copy") {
   }
 }
 
+TEST_CASE("Quantizer keeps its level within half an interval, and follows jumps over several by value") {
+  Device d("Quantizer", {{"interval", 0.5}});
+  d["u"] = 0.2;
+  CHECK(d.update()["y"] == 0.0);
+  CHECK(d["rises"] < 0.0);
+  d["u"] = 1.3;
+  // Within the instant of the jump already, before the level is committed.
+  CHECK(d.update()["y"] == 1.5);
+  d.handle(Phase::crossing, "rises");
+  CHECK(d["level"] == 3.0);
+  d.update();
+  CHECK(d["y"] == 1.5);
+  CHECK((d["rises"] < 0.0 && d["falls"] > 0.0));
+  d["u"] = -0.8;
+  CHECK(d.update()["y"] == -1.0);
+  d.handle(Phase::crossing, "falls");
+  CHECK(d["level"] == -2.0);
+}
+
+TEST_CASE("Quantizer located at the edge of a level takes the next one, however the division rounds") {
+  Device d("Quantizer", {{"interval", 0.1}});
+  for (int k = 0; k < 100; ++k) {
+    d["level"] = k, d["u"] = (k + 0.5) * 0.1;
+    d.handle(Phase::crossing, "rises");
+    CHECK(d["level"] == k + 1);
+    d.update();
+    // What was the edge upwards is, in the same bits, the edge downwards.
+    CHECK(d["falls"] == 0.0);
+  }
+}
+
+TEST_CASE("RateLimiter rises and falls at its limits, and between them follows with tau") {
+  Device d("RateLimiter", {{"rising", 2.0}, {"falling", -3.0}, {"tau", 0.25}, {"initial", 1.0}});
+  for (const auto& [u, rate] : {std::pair{5.0, 2.0}, {1.25, 1.0}, {1.0, 0.0}, {0.5, -2.0}, {-4.0, -3.0}}) {
+    d["u"] = u;
+    d.update();
+    INFO("u = " << u);
+    CHECK(d.rate("x") == rate);
+  }
+}
+
+TEST_CASE("DiscreteRateLimiter moves by at most a rate times the sample time") {
+  Device d(
+      "DiscreteRateLimiter",
+      {{"rising", 2.0}, {"falling", -3.0}, {"sample_time", *Rational::fraction(1, 2)}, {"initial", 1.0}});
+  std::vector<double> shown;
+  for (const double u : {3.5, 3.5, 3.5, 0.0, 0.0, 0.0}) {
+    d["u"] = u;
+    shown.push_back(d.hit("y"));
+  }
+  CHECK(shown == std::vector<double>{2.0, 3.0, 3.5, 2.0, 0.5, 0.0});
+}
+
+TEST_CASE("Backlash rests inside of its play and is pushed at its ends") {
+  Device d("Backlash", {{"width", 1.0}, {"tau", 0.25}, {"initial", 2.0}});
+  for (const auto& [u, rate] : {std::pair{2.4, 0.0}, {2.75, 1.0}, {1.6, 0.0}, {1.0, -2.0}}) {
+    d["u"] = u;
+    d.update();
+    INFO("u = " << u);
+    CHECK(d.rate("x") == rate);
+  }
+}
+
+TEST_CASE("DiscreteBacklash follows behind its play") {
+  Device d("DiscreteBacklash", {{"width", 1.0}, {"sample_time", Rational(1)}});
+  std::vector<double> shown;
+  for (const double u : {0.25, 1.0, 3.0, 2.5, 2.0, 1.5, 4.0}) {
+    d["u"] = u;
+    shown.push_back(d.hit("y"));
+  }
+  CHECK(shown == std::vector<double>{0.0, 0.5, 2.5, 2.5, 2.5, 2.0, 3.5});
+}
+
 TEST_CASE("UnitDelay shows its input one hit later") {
   Device d("UnitDelay", {{"sample_time", Rational(1)}, {"initial", 7.0}});
   std::vector<double> shown;
@@ -90,36 +163,6 @@ TEST_CASE("BouncingBall falls freely and turns its speed at the ground") {
   d.handle(Phase::crossing, "ground");
   CHECK(d["height"] == 0.0);
   CHECK(d["velocity"] == 2.0);
-}
-
-TEST_CASE("DifferentialDrive turns wheel speeds into motion") {
-  Device d("DifferentialDrive", {{"wheel_diameter", 0.04}, {"track_width", 0.054}, {"initial_theta", 0.5}});
-  // v = (dw/4)(right + left), omega = dw/(2 wT) (right - left); the last of ten printed digits is rounded.
-  const double printed = 0.5e-9;
-  struct Vector {
-    double right, left, v, omega;
-  };
-  for (const Vector& x : {Vector{3.05845, 1.04155, 0.041, 0.747}, Vector{6.5, -6.5, 0.0, 4.814814815},
-                          Vector{6.5, 0.0, 0.065, 2.407407407}, Vector{2.405, 1.595, 0.04, 0.3}}) {
-    d["right"] = x.right, d["left"] = x.left;
-    d.update();
-    CHECK(std::fabs(d["v"] - x.v) <= printed);
-    CHECK(std::fabs(d["omega"] - x.omega) <= printed);
-  }
-}
-
-TEST_CASE("DifferentialDrive moves along its heading, counter-clockwise when the right wheel is faster") {
-  Device d("DifferentialDrive",
-           {{"wheel_diameter", 0.1}, {"track_width", 0.25}, {"initial_x", 2.0}, {"initial_theta", 0.5}});
-  CHECK(d["pose"] == 2.0);
-  CHECK(d.bench().spec().port("pose")->elements == std::vector<std::string>{"x", "y", "theta"});
-  d["right"] = 6.0, d["left"] = 4.0;
-  d.update();
-  // v = 0.25 and omega = 0.4, each with at most three roundings
-  const double roundings = 3 * 0x1p-53;
-  CHECK(std::fabs(d.rate("x") - 0.25 * std::cos(0.5)) <= roundings);
-  CHECK(std::fabs(d.rate("y") - 0.25 * std::sin(0.5)) <= roundings);
-  CHECK(std::fabs(d.rate("theta") - 0.4) <= roundings);
 }
 
 TEST_CASE("Selector passes the elements that it names, in their order") {

@@ -32,6 +32,15 @@ std::vector<Case> function_cases() {
   all.push_back({"Expression", "a kink", {{"inputs", Words{"u", "w"}}, {"formula", example_formula()}}});
   all.push_back({"Expression", "branches", {{"inputs", Words{"u", "w"}}, {"formula", branching_formula()}}});
   all.push_back({"Expression", "parameters", {{"inputs", Words{"w"}}, {"formula", example_formula()}}});
+  for (const char* op : {"NAND", "OR", "NOR", "XOR", "NXOR", "NOT"}) {
+    all.push_back({"LogicalOperator", op, {{"operator", std::string(op)}}});
+  }
+  all.push_back({"LogicalOperator", "three", {{"operator", "XOR"s}, {"inputs", 3.0}}});
+  for (const char* op : {"==", "~=", "<", ">=", ">"}) {
+    all.push_back({"RelationalOperator", op, {{"operator", std::string(op)}}});
+  }
+  all.push_back({"HitCrossing", "rising", {{"direction", "rising"s}}});
+  all.push_back({"HitCrossing", "falling", {{"direction", "falling"s}}});
   all.push_back({"Mux", "five", {{"inputs", 5.0}}});
   all.push_back({"Demux", "one", {{"outputs", 1.0}}});
   all.push_back({"Selector", "two of three", {{"width", 3.0}, {"indices", Numbers{3.0, 1.0}}}});
