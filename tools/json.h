@@ -4,12 +4,23 @@
 #include <vector>
 
 #include "blocks/registry.h"
+#include "models/difference.h"
 #include "tools/model_file.h"
 
 namespace flyball {
 
 /// {"models": [{"file", "ok", "blocks", "states", "rates", "crossings", "diagnostics": […]}]}
 std::string check_json(const std::vector<ModelFile>& models);
+
+/// {"differences": [{"kind", "section", "name", "before", "after"}]}
+std::string diff_json(const std::vector<Difference>& differences);
+
+struct FormattedFile {
+  std::string name;
+  bool changed;
+};
+/// {"files": [{"file", "changed"}]}
+std::string format_json(const std::vector<FormattedFile>& files);
 
 /// {"blocks": [{"name", "type", "family", "rate"}], "wires": [{"from", "to"}], "order": [{"block",
 /// "computes"}]}
