@@ -166,6 +166,7 @@ CLI::App* add_blocks(CLI::App& app, BlocksOptions& options) {
   command->add_option("NAME", options.name, "Block type")->type_name("NAME");
   command->add_option("--markdown", options.markdown, "Write the whole reference, a page a block")
       ->type_name("DIR");
+  command->add_flag("--schema", options.schema, "Print the JSON Schema of model files, for editors");
   command->add_flag("--json", options.json, "Print the declarations as JSON");
   command->footer("Example:\n  flyball blocks PID");
   return command;

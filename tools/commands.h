@@ -58,6 +58,7 @@ struct GraphOptions {
 struct BlocksOptions {
   std::string name;      // empty: all
   std::string markdown;  // folder to write the reference to; empty: none
+  bool schema = false;   // print the JSON Schema of model files
   bool json = false;
 };
 
