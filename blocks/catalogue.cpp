@@ -63,6 +63,10 @@
   BLOCK(robot, MecanumDrive)              \
   BLOCK(robot, MecanumInverse)
 
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
 #include "blocks/registry.h"
 
 namespace flyball {
@@ -74,17 +78,51 @@ namespace flyball {
 FLYBALL_CATALOGUE(FLYBALL_DECLARE)
 #undef FLYBALL_DECLARE
 
-const std::vector<BlockType>& catalogue() {
-  // Types are complete before anyone sees them; constructing each default checks its declarations.
-  static const std::vector<BlockType> types = [] {
-    std::vector<BlockType> all;
-#define FLYBALL_ADD(family, Class) all.push_back(block_type<Class>());
+namespace {
+
+/// What the program knows. A type stays where it is when others are added: blocks point to theirs.
+struct Known {
+  std::deque<BlockType> types;
+  std::unordered_map<std::string_view, const BlockType*> by_name;
+  std::vector<std::string> names;
+
+  /// Constructing the default checks its declarations.
+  void add(BlockType added) {
+    added.create();
+    const BlockType& type = types.emplace_back(std::move(added));
+    by_name.emplace(type.name, &type);
+    names.push_back(type.name);
+    for (const std::string& alias : type.aliases) by_name.emplace(alias, &type);
+    names.insert(names.end(), type.aliases.begin(), type.aliases.end());
+  }
+};
+
+Known& known() {
+  static Known known = [] {
+    Known all;
+#define FLYBALL_ADD(family, Class) all.add(block_type<Class>());
     FLYBALL_CATALOGUE(FLYBALL_ADD)
 #undef FLYBALL_ADD
-    for (const BlockType& type : all) type.create();
     return all;
   }();
-  return types;
+  return known;
+}
+
+}  // namespace
+
+const std::deque<BlockType>& catalogue() { return known().types; }
+
+const std::vector<std::string>& block_type_names() { return known().names; }
+
+const BlockType* find_block_type(std::string_view name) {
+  const auto found = known().by_name.find(name);
+  return found == known().by_name.end() ? nullptr : found->second;
+}
+
+void add_block_type(BlockType type) {
+  if (find_block_type(type.name) != nullptr)
+    throw std::logic_error("block " + type.name + ": there is one of this name");
+  known().add(std::move(type));
 }
 
 }  // namespace flyball

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <unordered_map>
 
 #include "blocks/dimension_equations.h"
 
@@ -186,31 +185,6 @@ BlockObject BlockType::create(Settings* settings) const {
     assume_all_inputs(*object.specification, object);
   }
   return object;
-}
-
-const BlockType* find_block_type(std::string_view name) {
-  static const auto index = [] {
-    std::unordered_map<std::string_view, const BlockType*> all;
-    for (const BlockType& type : catalogue()) {
-      all.emplace(type.name, &type);
-      for (const std::string& alias : type.aliases) all.emplace(alias, &type);
-    }
-    return all;
-  }();
-  const auto found = index.find(name);
-  return found == index.end() ? nullptr : found->second;
-}
-
-const std::vector<std::string>& block_type_names() {
-  static const auto names = [] {
-    std::vector<std::string> all;
-    for (const BlockType& type : catalogue()) {
-      all.push_back(type.name);
-      all.insert(all.end(), type.aliases.begin(), type.aliases.end());
-    }
-    return all;
-  }();
-  return names;
 }
 
 }  // namespace flyball

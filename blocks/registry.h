@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -49,8 +50,13 @@ struct BlockType {
   BlockObject create(Settings* settings = nullptr) const;
 };
 
-/// All block types, in the order of the catalogue. Throws std::logic_error as `create` does.
-const std::vector<BlockType>& catalogue();
+/// All block types, in the order of the catalogue, and then those that were added. Throws std::logic_error as
+/// `create` does.
+const std::deque<BlockType>& catalogue();
+
+/// Adds a block of another program to those of the catalogue, before it reads its first model. Throws
+/// std::logic_error as `create` does, and when the name is taken.
+void add_block_type(BlockType type);
 
 /// By name or alias; nullptr when there is none.
 const BlockType* find_block_type(std::string_view name);

@@ -8,6 +8,7 @@
 #include "tools/console.h"
 #include "tools/json.h"
 #include "tools/reference.h"
+#include "tools/schema.h"
 
 namespace flyball {
 namespace {
@@ -36,6 +37,10 @@ int blocks_command(const BlocksOptions& options) {
   if (!options.markdown.empty()) {
     write_reference(options.markdown);
     print(fmt::format("{}: {} pages and index.md\n", options.markdown, catalogue().size()));
+    return exit_done;
+  }
+  if (options.schema) {
+    print(model_schema());
     return exit_done;
   }
   std::vector<const BlockType*> types;

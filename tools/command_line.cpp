@@ -143,11 +143,32 @@ CLI::App* add_graph(CLI::App& app, GraphOptions& options) {
   return command;
 }
 
+CLI::App* add_format(CLI::App& app, FormatOptions& options) {
+  CLI::App* command = app.add_subcommand("format", "Put model files into the one layout; comments stay");
+  command->add_option("FILE", options.files, "Model files, rewritten in place")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag("--check", options.check, "Write nothing; exit status 1 when a file would change");
+  command->add_flag("--json", options.json, "Print what changed as JSON");
+  command->footer("Example:\n  flyball format --check models/*/*.toml");
+  return command;
+}
+
+CLI::App* add_diff(CLI::App& app, DiffOptions& options) {
+  CLI::App* command = app.add_subcommand("diff", "What differs between two models, whatever their layout");
+  command->add_option("BEFORE", options.before, "Model file")->required()->type_name("FILE");
+  command->add_option("AFTER", options.after, "Model file")->required()->type_name("FILE");
+  command->add_flag("--json", options.json, "Print the differences as JSON");
+  command->footer("Exit status 1 when the models differ.\n\nExample:\n  flyball diff before.toml after.toml");
+  return command;
+}
+
 CLI::App* add_blocks(CLI::App& app, BlocksOptions& options) {
   CLI::App* command = app.add_subcommand("blocks", "List the blocks, or show the reference page of one");
   command->add_option("NAME", options.name, "Block type")->type_name("NAME");
   command->add_option("--markdown", options.markdown, "Write the whole reference, a page a block")
       ->type_name("DIR");
+  command->add_flag("--schema", options.schema, "Print the JSON Schema of model files, for editors");
   command->add_flag("--json", options.json, "Print the declarations as JSON");
   command->footer("Example:\n  flyball blocks PID");
   return command;
@@ -167,10 +188,14 @@ int parse_and_run(int argc, const char* const* argv) {
   RunOptions run;
   CheckOptions check;
   GraphOptions graph;
+  FormatOptions format;
+  DiffOptions diff;
   BlocksOptions blocks;
   const CLI::App* run_app = add_run(app, run);
   const CLI::App* check_app = add_check(app, check);
   const CLI::App* graph_app = add_graph(app, graph);
+  const CLI::App* format_app = add_format(app, format);
+  const CLI::App* diff_app = add_diff(app, diff);
   add_blocks(app, blocks);
   app.set_version_flag("--version", "flyball " + flyball_version());
   app.require_subcommand(1);
@@ -183,6 +208,8 @@ int parse_and_run(int argc, const char* const* argv) {
   if (run_app->parsed()) return run_command(run);
   if (check_app->parsed()) return check_command(check);
   if (graph_app->parsed()) return graph_command(graph);
+  if (format_app->parsed()) return format_command(format);
+  if (diff_app->parsed()) return diff_command(diff);
   return blocks_command(blocks);
 }
 

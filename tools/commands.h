@@ -39,6 +39,17 @@ struct CheckOptions {
   bool json = false;
 };
 
+struct FormatOptions {
+  std::vector<std::string> files;
+  bool check = false;  // nothing is written
+  bool json = false;
+};
+
+struct DiffOptions {
+  std::string before, after;
+  bool json = false;
+};
+
 struct GraphOptions {
   std::string model;
   std::string output;  // .svg, .png or .gv file; empty: the graph is printed
@@ -50,12 +61,15 @@ struct GraphOptions {
 struct BlocksOptions {
   std::string name;      // empty: all
   std::string markdown;  // folder to write the reference to; empty: none
+  bool schema = false;   // print the JSON Schema of model files
   bool json = false;
 };
 
 // The subcommands. Each returns the exit status; FileError and UsageError are left to the caller.
 int run_command(const RunOptions& options);
 int check_command(const CheckOptions& options);
+int format_command(const FormatOptions& options);
+int diff_command(const DiffOptions& options);
 int graph_command(const GraphOptions& options);
 int blocks_command(const BlocksOptions& options);
 

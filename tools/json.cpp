@@ -126,6 +126,30 @@ std::string check_json(const std::vector<ModelFile>& models, bool units) {
   return text_of(json);
 }
 
+std::string diff_json(const std::vector<Difference>& differences) {
+  const auto kind = [](const Difference& d) {
+    return d.kind == Difference::Kind::added     ? "added"
+           : d.kind == Difference::Kind::removed ? "removed"
+                                                 : "changed";
+  };
+  Json json = {{"differences", Json::array()}};
+  for (const Difference& d : differences) {
+    json["differences"].push_back({{"kind", kind(d)},
+                                   {"section", d.section},
+                                   {"name", d.name},
+                                   {"before", d.before},
+                                   {"after", d.after}});
+  }
+  return text_of(json);
+}
+
+std::string format_json(const std::vector<FormattedFile>& files) {
+  Json json = {{"files", Json::array()}};
+  for (const FormattedFile& file : files)
+    json["files"].push_back({{"file", file.name}, {"changed", file.changed}});
+  return text_of(json);
+}
+
 std::string graph_json(const Plan& plan) {
   Json json = {{"blocks", Json::array()}, {"wires", Json::array()}, {"order", Json::array()}};
   const auto& instances = plan.diagram->instances;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "blocks/registry.h"
+#include "models/difference.h"
 #include "tools/model_file.h"
 
 namespace flyball {
@@ -11,6 +12,16 @@ namespace flyball {
 /// {"models": [{"file", "ok", "blocks", "states", "rates", "crossings", "diagnostics": […]}]}; with
 /// `units` also the signals and parameters with their units, and notes.
 std::string check_json(const std::vector<ModelFile>& models, bool units = false);
+
+/// {"differences": [{"kind", "section", "name", "before", "after"}]}
+std::string diff_json(const std::vector<Difference>& differences);
+
+struct FormattedFile {
+  std::string name;
+  bool changed;
+};
+/// {"files": [{"file", "changed"}]}
+std::string format_json(const std::vector<FormattedFile>& files);
 
 /// {"blocks": [{"name", "type", "family", "rate"}], "wires": [{"from", "to"}], "order": [{"block",
 /// "computes"}]}

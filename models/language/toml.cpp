@@ -229,4 +229,14 @@ std::optional<TomlDocument> parse_toml(std::string_view text, Diagnostics& diagn
   return TomlDocument(std::move(source), std::move(root));
 }
 
+bool same_content(const TomlValue& a, const TomlValue& b) {
+  const auto same_entry = [](const TomlEntry& x, const TomlEntry& y) {
+    return x.key == y.key && same_content(x.value, y.value);
+  };
+  return a.kind == b.kind && a.flag == b.flag && a.number == b.number && a.integer == b.integer &&
+         (a.is(TomlValue::Kind::number) || a.text == b.text) &&
+         std::ranges::equal(a.items, b.items, same_content) &&
+         std::ranges::equal(a.entries, b.entries, same_entry);
+}
+
 }  // namespace flyball

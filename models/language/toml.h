@@ -41,6 +41,9 @@ struct TomlEntry {
   TomlValue value;
 };
 
+/// Whether two values say the same, wherever and however they stand in their texts.
+bool same_content(const TomlValue& a, const TomlValue& b);
+
 /// A parsed text. Only views of it are handed around, so it does not move.
 class TomlDocument {
  public:

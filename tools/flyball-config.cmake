@@ -1,0 +1,7 @@
+include(CMakeFindDependencyMacro)
+find_dependency(Threads)
+find_dependency(fmt)
+find_dependency(Eigen3 NO_MODULE)
+find_dependency(Ceres)
+find_dependency(SUNDIALS)
+include("${CMAKE_CURRENT_LIST_DIR}/flyball-targets.cmake")
