@@ -130,7 +130,7 @@ log_interval = "10 ms"
 
 }  // namespace
 
-TEST_CASE("S39: random numbers depend on seed, name and hit, and on nothing else") {
+TEST_CASE("S40: random numbers depend on seed, name and hit, and on nothing else") {
   const std::vector<double> reference = noise("dp5", 1e-6, 1);
   CHECK(reference.size() == 101);
   CHECK(same_bits(reference, noise("dp5", 1e-10, 1)));
@@ -142,7 +142,7 @@ TEST_CASE("S39: random numbers depend on seed, name and hit, and on nothing else
   for (std::size_t k = 0; k < reference.size(); ++k) CHECK(reference[k] != other[k]);
 }
 
-TEST_CASE("S39: blocks of one structure have numbers of their own") {
+TEST_CASE("S40: blocks of one structure have numbers of their own") {
   Run run(R"toml(
 flyball = 1
 [blocks]

@@ -264,7 +264,7 @@ const double half_way = std::sqrt(1.0 / 9.81);
 
 }  // namespace
 
-TEST_CASE("S38: Assertion stops the run with its message, after the instant") {
+TEST_CASE("S39: Assertion stops the run with its message, after the instant") {
   for (const std::string method : {"dp5", "bdf"}) {
     INFO(method);
     Run run(replaced(replaced(falling, "GUARD", "Assertion"), "METHOD", method));
@@ -278,7 +278,7 @@ TEST_CASE("S38: Assertion stops the run with its message, after the instant") {
   }
 }
 
-TEST_CASE("S38: StopSimulation ends the run as its stop time would") {
+TEST_CASE("S39: StopSimulation ends the run as its stop time would") {
   std::string text = replaced(replaced(falling, "GUARD", "StopSimulation"), "METHOD", "dp5");
   text = replaced(text, "\"ball.height -> guard\"", "\"ball.height -> back -> guard\"");
   text = replaced(text, "[blocks]", "[blocks]\nback = { type = \"Gain\", gain = -1.0 }");
@@ -292,7 +292,7 @@ TEST_CASE("S38: StopSimulation ends the run as its stop time would") {
   CHECK_FALSE(run.advance());
 }
 
-TEST_CASE("S38: a divisor that passes zero is an error, and one that may jump is none") {
+TEST_CASE("S39: a divisor that passes zero is an error, and one that may jump is none") {
   const std::string wires = R"toml("one -> ratio.u1", "divisor -> ratio.u2")toml";
   const std::string one = "one = { type = \"Constant\" }\n";
   Run passing(
@@ -308,7 +308,7 @@ TEST_CASE("S38: a divisor that passes zero is an error, and one that may jump is
 }
 
 TEST_CASE(
-    "S38: an assertion that fails at the start stops the run there, and before an end that is asked for") {
+    "S39: an assertion that fails at the start stops the run there, and before an end that is asked for") {
   Run run(model(R"toml(
 zero = { type = "Constant", value = 0.0 }
 one = { type = "Constant" }
