@@ -111,6 +111,7 @@ inline Dimensional tanh(const Dimensional& x) { return Dimensional::number(x); }
 inline Dimensional exp(const Dimensional& x) { return Dimensional::number(x); }
 inline Dimensional log(const Dimensional& x) { return Dimensional::number(x); }
 inline Dimensional log10(const Dimensional& x) { return Dimensional::number(x); }
+inline Dimensional floor(const Dimensional& x) { return Dimensional::number(x); }
 inline Dimensional wrap(const Dimensional& x) { return Dimensional::number(x); }
 
 }  // namespace flyball

@@ -135,6 +135,9 @@ class alignas(8 * lane_count) Lanes {
   friend Lanes log10(const Lanes& x) {
     return map(x, [](double a) { return std::log10(a); });
   }
+  friend Lanes floor(const Lanes& x) {
+    return map(x, [](double a) { return std::floor(a); });
+  }
   friend Lanes wrap(const Lanes& x) {
     return map(x, [](double a) { return flyball::wrap(a); });
   }
