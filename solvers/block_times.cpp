@@ -22,13 +22,15 @@ double seconds_of(int repeats, Call&& call) {
   return std::chrono::duration<double>(Clock::now() - start).count() / repeats;
 }
 
-/// Short calls are repeated until the clock's own 20 to 50 ns do not show.
+/// Short calls are repeated until the clock's own 20 to 50 ns do not show. The least of three is taken: other
+/// programs of the machine only ever add.
 template <class Call>
 double seconds_a_call(Call&& call) {
   constexpr double long_enough = 4e-6;
-  const double once = seconds_of(1, call);
-  if (once >= long_enough) return once;
-  return seconds_of(static_cast<int>(std::clamp(long_enough / once, 4.0, 200.0)), call);
+  double least = seconds_of(1, call);
+  const int repeats = static_cast<int>(std::clamp(long_enough / least, 1.0, 200.0));
+  for (int k = 0; k < 2; ++k) least = std::min(least, seconds_of(repeats, call));
+  return least;
 }
 
 }  // namespace
