@@ -4,8 +4,7 @@
 #include <string>
 
 #include "blocks/settings.h"
-#include "models/diagram_parameters.h"
-#include "models/diagram_report.h"
+#include "models/diagram_expressions.h"
 
 namespace flyball {
 
@@ -13,11 +12,14 @@ namespace flyball {
 class TableSettings : public Settings {
  public:
   /// How a key was read: more than one bit may be set.
-  enum Use : unsigned { as_written = 1, as_time = 2, as_whole = 4, as_shape = 8 };
+  enum Use : unsigned { as_written = 1, as_time = 2, as_whole = 4, as_shape = 8, as_formula = 16 };
   using Uses = std::map<std::string, unsigned, std::less<>>;
 
-  TableSettings(const TomlEntry& block, ModelParameters& parameters, Report& report)
-      : block_(block), parameters_(parameters), report_(report), errors_before_(report.errors()) {}
+  TableSettings(const TomlEntry& block, const Expressions& expressions)
+      : block_(block),
+        expressions_(expressions),
+        report_(expressions.subsystem().report),
+        errors_before_(report_.errors()) {}
 
   bool given(std::string_view key) const override;
   std::optional<std::string> text(std::string_view key) override;
@@ -39,10 +41,11 @@ class TableSettings : public Settings {
   const TomlValue* find(std::string_view key, Use use) const;
   void append_exact(std::string& result, const TomlValue& value, const std::string& unit);
   void append_shape(std::string& result, std::string_view key);
+  void append_formula(std::string& result, const TomlValue& value);
 
   const TomlEntry& block_;
-  ModelParameters& parameters_;
-  Report& report_;
+  const Expressions& expressions_;
+  const Report& report_;
   int errors_before_;
   int refusals_ = 0;
   mutable Uses uses_;

@@ -293,9 +293,12 @@ Profile Simulator::profile(const Profiler& profiler) const {
 void Simulator::set_parameter(std::string_view name, double value) {
   const int slot = plan_->parameter_slot(name);
   if (slot < 0) throw std::invalid_argument(fmt::format("there is no parameter {}", name));
-  const bool literal = std::ranges::find(plan_->literals, slot, &Start::slot) != plan_->literals.end();
-  if (!literal) throw std::invalid_argument(fmt::format("{} is computed from other parameters", name));
   const int p = plan_->diagram->find_parameter(name);
+  // A parameter that only repeats another one has its slot: writing it would change that one, too.
+  const bool own = p < 0 || plan_->diagram->parameters[p].binding.kind == Binding::Kind::literal;
+  const bool literal = std::ranges::find(plan_->literals, slot, &Start::slot) != plan_->literals.end();
+  if (!own || !literal)
+    throw std::invalid_argument(fmt::format("{} is computed from other parameters", name));
   if (p >= 0 && plan_->diagram->parameters[p].structural) {
     throw std::invalid_argument(fmt::format("{} fixes the structure of a block: it takes a new plan", name));
   }
