@@ -5,12 +5,11 @@
 #include <cstring>
 
 #include "models/diagram_blocks.h"
+#include "models/diagram_files.h"
 #include "models/diagram_guesses.h"
 #include "models/diagram_log.h"
-#include "models/diagram_overrides.h"
-#include "models/diagram_parameters.h"
-#include "models/diagram_report.h"
 #include "models/diagram_simulation.h"
+#include "models/diagram_unfold.h"
 #include "models/diagram_wires.h"
 #include "models/dimensions.h"
 #include "models/language/messages.h"
@@ -19,97 +18,53 @@
 namespace flyball {
 namespace {
 
-constexpr int format_version = 1;
-
 template <class T>
 int index_of(const std::vector<T>& all, std::string_view name) {
   const auto found = std::ranges::find(all, name, &T::name);
   return found == all.end() ? -1 : static_cast<int>(found - all.begin());
 }
 
-class DiagramReader {
- public:
-  DiagramReader(const TomlDocument& document, const std::vector<Override>& overrides,
-                Diagnostics& diagnostics)
-      : root_(document.root()),
-        report_(document, overrides, diagnostics),
-        parameters_(report_),
-        blocks_(parameters_, report_) {
-    diagram_.file = diagnostics.file();
-  }
+void read_title(const Subsystem& root, Diagram& diagram) {
+  const TomlValue* model = root.section("model");
+  if (model == nullptr) return;
+  root.report.check_keys(*model, "[model]", {"title", "source"});
+  diagram.title = root.report.text(*model, "title");
+  diagram.source = root.report.text(*model, "source");
+}
 
-  Diagram read() {
-    report_.check_keys(root_, "a model file",
-                       {"flyball", "model", "parameters", "blocks", "diagram", "simulation"});
-    check_version();
-    if (const TomlValue* model = section("model")) read_model(*model);
-    if (const TomlValue* parameters = section("parameters")) parameters_.read(*parameters);
-    if (const TomlValue* blocks = section("blocks")) {
-      blocks_.read(*blocks);
-    } else if (root_.find("blocks") == nullptr) {
-      report_.error({1, 1}, message::missing_section("blocks"));
-    }
-    read_diagram_section();
-    if (const TomlValue* simulation = section("simulation")) {
-      diagram_.simulation = read_simulation(*simulation, state_names(), parameters_, report_);
-    }
-    diagram_.parameters = parameters_.parameters();
-    diagram_.instances = std::move(blocks_.instances());
-    diagram_.data_files = blocks_.data_files();
-    return std::move(diagram_);
-  }
-
- private:
-  const TomlValue* section(std::string_view name) {
-    const TomlValue* found = root_.find(name);
-    if (found == nullptr) return nullptr;
-    return report_.expect(*found, TomlValue::Kind::table, "a section") ? found : nullptr;
-  }
-
-  void check_version() {
-    const TomlValue* version = root_.find("flyball");
-    if (version == nullptr) return report_.error({1, 1}, message::missing_version(format_version));
-    if (!report_.expect(*version, TomlValue::Kind::integer, "the version of the file format")) return;
-    if (version->integer != format_version) {
-      report_.error(*version, message::unknown_version(version->integer, format_version));
+/// Continuous states: "plant.x".
+std::vector<std::string> state_names(const Diagram& diagram) {
+  std::vector<std::string> names;
+  for (const Instance& instance : diagram.instances) {
+    if (instance.object == nullptr) continue;
+    for (const SlotSpec& slot : instance.object->specification->slots) {
+      if (slot.kind == SlotKind::state) names.push_back(instance.name + "." + slot.name);
     }
   }
+  return names;
+}
 
-  void read_model(const TomlValue& model) {
-    report_.check_keys(model, "[model]", {"title", "source"});
-    diagram_.title = report_.text(model, "title");
-    diagram_.source = report_.text(model, "source");
-  }
-
-  void read_diagram_section() {
-    const TomlValue* diagram = section("diagram");
-    if (diagram != nullptr) report_.check_keys(*diagram, "[diagram]", {"wires", "log", "guesses"});
-    const TomlValue* wires = diagram == nullptr ? nullptr : diagram->find("wires");
-    ModelWires connections(blocks_, report_);
-    if (wires != nullptr) connections.read(*wires);
-    connections.check_missing();
-    diagram_.logged = read_log(diagram == nullptr ? nullptr : diagram->find("log"), blocks_, report_);
-    const TomlValue* guesses = diagram == nullptr ? nullptr : diagram->find("guesses");
-    if (guesses != nullptr) diagram_.guesses = read_guesses(*guesses, blocks_, parameters_, report_);
-  }
-
-  std::vector<std::string> state_names() {
-    std::vector<std::string> names;
-    for (const Instance& instance : blocks_.instances()) {
-      if (instance.object == nullptr) continue;
-      for (const SlotSpec& slot : instance.object->specification->slots) {
-        if (slot.kind == SlotKind::state) names.push_back(instance.name + "." + slot.name);
-      }
-    }
-    return names;
-  }
-
-  const TomlValue& root_;
-  Report report_;
-  ModelParameters parameters_;
-  ModelBlocks blocks_;
-  Diagram diagram_;
-};
+/// Everything below the definitions, which are checked already.
+Diagram read_hierarchy(const Hierarchy& hierarchy) {
+  const Subsystem& root = hierarchy.root();
+  Diagram diagram;
+  read_title(root, diagram);
+  ModelParameters parameters(hierarchy);
+  parameters.read();
+  ModelBlocks blocks(parameters, hierarchy);
+  blocks.read();
+  ModelWires(blocks).read();
+  const TomlValue* section = root.section("diagram");
+  diagram.logged = read_log(section == nullptr ? nullptr : section->find("log"), blocks);
+  const TomlValue* guesses = section == nullptr ? nullptr : section->find("guesses");
+  if (guesses != nullptr) diagram.guesses = read_guesses(*guesses, blocks, Expressions(parameters, root));
+  unfold(blocks, diagram);
+  if (const TomlValue* simulation = root.section("simulation"))
+    diagram.simulation = read_simulation(*simulation, state_names(diagram), Expressions(parameters, root));
+  diagram.parameters = parameters.parameters();
+  diagram.data_files = blocks.data_files();
+  return diagram;
+}
 
 }  // namespace
 
@@ -119,10 +74,12 @@ int Diagram::find_parameter(std::string_view name) const { return index_of(param
 
 std::optional<Diagram> read_diagram(std::string_view text, Diagnostics& diagnostics,
                                     const std::vector<Override>& overrides) {
-  auto document = parse_toml(text, diagnostics);
-  if (!document) return std::nullopt;
-  apply_overrides(overrides, document->root(), diagnostics);
-  Diagram diagram = DiagramReader(*document, overrides, diagnostics).read();
+  SubsystemTypes types(overrides, diagnostics);
+  const SubsystemType* model = types.read(text);
+  if (model == nullptr) return std::nullopt;
+  Diagram diagram = read_hierarchy(Hierarchy(*model, overrides, diagnostics));
+  diagram.file = diagnostics.file();
+  diagram.used_files = types.used_files();
   if (!diagnostics.failed()) check_dimensions(diagram, diagnostics);
   return diagnostics.failed() ? std::nullopt : std::optional(std::move(diagram));
 }

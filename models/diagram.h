@@ -24,9 +24,10 @@ struct Binding {
   Position at;
 };
 
-/// One entry of [parameters]. A formula only uses parameters that stand before it in Diagram::parameters.
+/// One entry of [parameters], of the model or of a subsystem. A formula only uses parameters that stand
+/// before it in Diagram::parameters.
 struct Parameter {
-  std::string name;
+  std::string name;  // with the path of its subsystem: "motor.R"
   Binding binding;
   Range range;
   std::string unit;                   // as declared, "any" without one
@@ -44,9 +45,9 @@ struct Endpoint {
   bool operator==(const Endpoint&) const = default;
 };
 
-/// One block of the diagram.
+/// One block of the diagram. Subsystems are unfolded: their blocks stand here, their ports are gone.
 struct Instance {
-  std::string name;
+  std::string name;                                 // with the path of its subsystem: "motor.winding"
   std::shared_ptr<const BlockObject> object;        // shared by instances of equal type and structure
   std::vector<std::pair<int, Binding>> parameters;  // slot and binding, for each param slot
   std::vector<std::pair<int, Endpoint>> inputs;  // slot and source, for each (numeric or object) input slot
@@ -86,11 +87,18 @@ struct DataFile {
   std::string hash;  // of its bytes
 };
 
+/// A file that a model uses.
+struct UsedFile {
+  std::string name;  // its path, as messages show it
+  std::string text;
+};
+
 /// A checked model: every name resolved, every input connected, every structure constructed. Immutable.
 struct Diagram {
   std::string file;
   std::string title;
-  std::string source;  // where the model was published
+  std::string source;                // where the model was published
+  std::vector<UsedFile> used_files;  // besides `file`, in the order of first use
   std::vector<Parameter> parameters;
   std::vector<Instance> instances;
   std::vector<Logged> logged;
@@ -102,14 +110,15 @@ struct Diagram {
   int find_parameter(std::string_view name) const;  ///< -1 when there is none
 };
 
-/// A value given on the command line or by a study: a parameter, or "block.parameter".
+/// A value given on the command line or by a study: a parameter of the model, or "block.parameter", where the
+/// block may be a subsystem, or one inside it: "motor.R", "motor.winding.gain".
 struct Override {
   std::string name;
   std::string value;  // an expression, as in a model file
 };
 
 /// Reads a model. Reports everything that is wrong to `diagnostics`; then the result is empty.
-/// `text` is the content of `diagnostics.file()`.
+/// `text` is the content of `diagnostics.file()`; files that it uses are found from that path.
 std::optional<Diagram> read_diagram(std::string_view text, Diagnostics& diagnostics,
                                     const std::vector<Override>& overrides = {});
 

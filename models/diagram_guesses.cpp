@@ -10,10 +10,11 @@ constexpr const char* a_guess = "a guess such as { port = \"plant.y\", value = 1
 }  // namespace
 
 std::vector<Guess> read_guesses(const TomlValue& guesses, const ModelBlocks& blocks,
-                                ModelParameters& parameters, Report& report) {
+                                const Expressions& expressions) {
   std::vector<Guess> result;
+  const Report& report = expressions.subsystem().report;
   if (!report.expect(guesses, TomlValue::Kind::list, "a list of guesses")) return result;
-  PortNames names(blocks, report);
+  const PortNames names(blocks, expressions.subsystem());
   for (const TomlValue& guess : guesses.items) {
     if (!report.expect(guess, TomlValue::Kind::table, a_guess)) continue;
     report.check_keys(guess, "a guess", {"port", "value"});
@@ -27,11 +28,11 @@ std::vector<Guess> read_guesses(const TomlValue& guesses, const ModelBlocks& blo
     if (!port) continue;
     const SlotSpec& slot = blocks.form(port->instance)->specification().slots[port->slot(0)];
     if (port->width() != 1 || !slot.numeric()) {
-      report.error_inside(*where, 0, message::not_one_number(names.name(*port, -1)));
+      report.error_inside(*where, 0, message::not_one_number(name_of(blocks, *port, -1)));
       continue;
     }
-    if (const auto number = parameters.fixed(*value, slot.unit)) {
-      result.push_back({{port->instance, port->slot(0)}, *number, where->at});
+    if (const auto number = expressions.fixed(*value, slot.unit)) {
+      result.push_back({{port->instance, port->slot(0)}, *number, report.here(where->at)});
     }
   }
   return result;

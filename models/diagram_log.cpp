@@ -11,14 +11,76 @@ namespace {
 
 class LogReader {
  public:
-  LogReader(const ModelBlocks& blocks, Report& report)
-      : blocks_(blocks), report_(report), names_(blocks, report) {}
+  explicit LogReader(const ModelBlocks& blocks) : blocks_(blocks), root_(blocks.hierarchy().root()) {}
 
   void read(const TomlValue& log) {
-    if (!report_.expect(log, TomlValue::Kind::list, "a list of signals such as [\"plant.y\"]")) return;
+    if (!root_.report.expect(log, TomlValue::Kind::list, "a list of signals such as [\"plant.y\"]")) return;
     for (const TomlValue& signal : log.items) {
-      if (report_.expect(signal, TomlValue::Kind::string, "a signal such as \"plant.y\""))
+      if (root_.report.expect(signal, TomlValue::Kind::string, "a signal such as \"plant.y\""))
         read_signal(signal);
+    }
+  }
+
+  void add_default() {
+    int added = 0;
+    for (const PortSpec& port : blocks_.form(root_.inside)->specification().ports) {
+      if (port.is_input) added += add({root_.inside, &port, -1, {}}, "");
+    }
+    if (added > 0) return;
+    std::vector<bool> feeds(blocks_.size());
+    for (const Instance& instance : blocks_.instances()) {
+      for (const auto& [slot, source] : instance.inputs) {
+        if (source.connected()) feeds[source.instance] = true;
+      }
+    }
+    for (const bool all : {false, true}) {
+      for (const Member& member : root_.members) {
+        const int i = root_.blocks.find(member.entry->key)->second;
+        if ((all || !feeds[i]) && blocks_.form(i) != nullptr) added += add_outputs(i);
+      }
+      if (added > 0) return;
+    }
+  }
+
+  std::vector<Logged> take() { return std::move(logged_); }
+
+ private:
+  void read_signal(const TomlValue& signal) {
+    Piece piece = Piece{&signal, 0, signal.text}.trimmed();
+    const PortNames names(blocks_, within(piece));
+    if (const auto own = names.own_port(piece)) {
+      add(*own, "");
+      return;
+    }
+    const int instance = names.block(piece);
+    if (instance < 0 || blocks_.form(instance) == nullptr) return;
+    if (piece.text.find('.') == std::string_view::npos) {
+      if (add_outputs(instance) == 0)
+        root_.report.error_inside(signal, piece.offset, message::nothing_to_log(blocks_.name(instance)));
+      return;
+    }
+    const auto port = names.port(piece, false);
+    if (!port) return;
+    if (blocks_.form(instance)->specification().slots[port->slot(0)].numeric()) {
+      add(*port, "");
+    } else {
+      root_.report.error_inside(signal, piece.offset, message::logged_object(name_of(blocks_, *port, -1)));
+    }
+  }
+
+  /// The subsystem whose block a path names. The piece is then what is left of the path.
+  const Subsystem& within(Piece& piece) const {
+    const Subsystem* at = &root_;
+    while (true) {
+      const std::size_t dot = piece.text.find('.');
+      const auto found = at->blocks.find(piece.text.substr(0, dot));
+      const Subsystem* inner = found == at->blocks.end() ? nullptr : blocks_.node(found->second).ports_of;
+      if (inner == nullptr || dot == std::string_view::npos) return *at;
+      const std::string_view rest = piece.text.substr(dot + 1);
+      if (!inner->blocks.contains(rest.substr(0, rest.find('.')))) return *at;
+      at = inner;
+      piece.offset += dot + 1;
+      piece.text = rest;
     }
   }
 
@@ -38,69 +100,37 @@ class LogReader {
     return added;
   }
 
-  std::vector<Logged> take() { return std::move(logged_); }
-
- private:
-  void read_signal(const TomlValue& signal) {
-    const Piece piece = Piece{&signal, 0, signal.text}.trimmed();
-    const int instance = names_.block(piece);
-    if (instance < 0 || blocks_.form(instance) == nullptr) return;
-    if (piece.text.find('.') == std::string_view::npos) {
-      const std::string& name = blocks_.instances()[instance].name;
-      if (add_outputs(instance) == 0)
-        report_.error_inside(signal, piece.offset, message::nothing_to_log(name));
-      return;
-    }
-    const auto port = names_.port(piece, false);
-    if (!port) return;
-    if (blocks_.form(instance)->specification().slots[port->slot(0)].numeric()) {
-      add(*port, "");
-    } else {
-      report_.error_inside(signal, piece.offset, message::logged_object(names_.name(*port, -1)));
-    }
-  }
-
   /// Without a name, each element goes by its full one. A signal that is named twice is one column.
   int add(const Port& port, std::string name) {
+    const BlockForm& form = *blocks_.form(port.instance);
     for (int k = 0; k < port.width(); ++k) {
       Logged entry;
-      entry.name = name.empty() ? names_.name(port, k) : name;
-      entry.unit = blocks_.form(port.instance)->specification().slots[port.slot(k)].unit;
+      entry.name =
+          name.empty() ? blocks_.node(port.instance).owner->prefix + name_of(blocks_, port, k) : name;
+      entry.unit = form.specification().slots[port.slot(k)].unit;
       entry.source = {port.instance, port.slot(k)};
+      // A port of the model itself that wires end at shows what drives it.
+      if (port.spec->is_input)
+        entry.source = blocks_.instances()[port.instance].inputs[form.input_rank[port.slot(k)]].second;
       if (taken_.insert(entry.name).second) logged_.push_back(std::move(entry));
     }
     return port.width();
   }
 
   const ModelBlocks& blocks_;
-  Report& report_;
-  PortNames names_;
+  const Subsystem& root_;
   std::vector<Logged> logged_;
   std::unordered_set<std::string> taken_;
 };
 
 }  // namespace
 
-std::vector<Logged> read_log(const TomlValue* log, const ModelBlocks& blocks, Report& report) {
-  LogReader reader(blocks, report);
+std::vector<Logged> read_log(const TomlValue* log, const ModelBlocks& blocks) {
+  LogReader reader(blocks);
   if (log != nullptr) {
     reader.read(*log);
-    return reader.take();
-  }
-  const int count = static_cast<int>(blocks.instances().size());
-  std::vector<bool> feeds(count);
-  for (const Instance& instance : blocks.instances()) {
-    for (const auto& [slot, source] : instance.inputs) {
-      if (source.connected()) feeds[source.instance] = true;
-    }
-  }
-  int added = 0;
-  for (int i = 0; i < count; ++i) {
-    if (!feeds[i] && blocks.form(i) != nullptr) added += reader.add_outputs(i);
-  }
-  if (added > 0) return reader.take();
-  for (int i = 0; i < count; ++i) {
-    if (blocks.form(i) != nullptr) reader.add_outputs(i);
+  } else {
+    reader.add_default();
   }
   return reader.take();
 }

@@ -78,20 +78,6 @@ bool set_indexed(TomlValue& block, std::string_view name, TomlValue value) {
   return target != nullptr;
 }
 
-void apply_to_block(const Override& given, TomlValue value, TomlValue* blocks, Diagnostics& diagnostics) {
-  const std::size_t dot = given.name.find('.');
-  const std::string block = given.name.substr(0, dot);
-  const std::string setting = given.name.substr(dot + 1);
-  TomlValue* table = find_table(blocks, block);
-  if (table == nullptr) {
-    diagnostics.error({}, message::in_override(given.name, message::unknown_block(block, keys(blocks))));
-  } else if (setting.find('[') == std::string::npos) {
-    set(*table, setting, std::move(value));
-  } else if (!set_indexed(*table, setting, std::move(value))) {
-    diagnostics.error({}, message::in_override(given.name, message::no_such_entry(block, setting)));
-  }
-}
-
 void apply_to_parameter(const Override& given, TomlValue value, TomlValue* parameters,
                         Diagnostics& diagnostics) {
   TomlEntry* entry = find_entry(parameters, given.name);
@@ -107,14 +93,23 @@ void apply_to_parameter(const Override& given, TomlValue value, TomlValue* param
 
 }  // namespace
 
-void apply_overrides(const std::vector<Override>& overrides, TomlValue& root, Diagnostics& diagnostics) {
+void apply_to_parameters(const std::vector<Override>& overrides, TomlValue& root, Diagnostics& diagnostics) {
   for (std::size_t k = 0; k < overrides.size(); ++k) {
-    TomlValue value = value_of(overrides[k].value, static_cast<int>(k));
-    if (overrides[k].name.find('.') != std::string::npos) {
-      apply_to_block(overrides[k], std::move(value), find_table(&root, "blocks"), diagnostics);
-    } else {
-      apply_to_parameter(overrides[k], std::move(value), find_table(&root, "parameters"), diagnostics);
-    }
+    if (overrides[k].name.find('.') != std::string::npos) continue;
+    apply_to_parameter(overrides[k], value_of(overrides[k].value, static_cast<int>(k)),
+                       find_table(&root, "parameters"), diagnostics);
+  }
+}
+
+void apply_to_block(const std::vector<Override>& overrides, int number, TomlEntry& block,
+                    Diagnostics& diagnostics) {
+  const Override& given = overrides[number];
+  const std::string setting = given.name.substr(given.name.rfind('.') + 1);
+  TomlValue value = value_of(given.value, number);
+  if (setting.find('[') == std::string::npos) {
+    set(block.value, setting, std::move(value));
+  } else if (!set_indexed(block.value, setting, std::move(value))) {
+    diagnostics.error({}, message::in_override(given.name, message::no_such_entry(block.key, setting)));
   }
 }
 

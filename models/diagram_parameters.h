@@ -1,73 +1,64 @@
 #pragma once
 
+#include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "models/diagram.h"
-#include "models/diagram_report.h"
-#include "models/language/expression.h"
+#include "models/diagram_hierarchy.h"
 #include "models/language/quantity.h"
 
 namespace flyball {
 
-/// [parameters], and what expressions over them are worth.
+/// A parameter of the model or of one of its subsystems.
+struct ParameterEntry {
+  Parameter parameter;
+  Position at;                           // where it is declared
+  const Subsystem* subsystem = nullptr;  // that declares it
+  const TomlValue* source = nullptr;     // number or expression; nullptr when there is none that is right
+  const Subsystem* reader = nullptr;     // in which `source` is read: `subsystem`, or its user
+  const TomlValue* declared = nullptr;   // the value that stands in the declaration
+  std::optional<Formula> formula;
+  double value = 0.0;
+  std::optional<Rational> exact;
+  Quantity quantity;
+  bool good = false;
+
+  /// Its name in the file that gives its value.
+  std::string name() const { return reader->local(parameter.name); }
+};
+
+/// All parameters of a model. One that uses others stands behind them.
 class ModelParameters {
  public:
-  explicit ModelParameters(Report& report) : report_(report) {}
+  explicit ModelParameters(const Hierarchy& hierarchy) : hierarchy_(hierarchy) {}
 
-  void read(const TomlValue& section);
+  void read();
 
-  /// The binding of a number or an expression where `unit` is declared. Reports what is wrong with it;
-  /// nothing then, and nothing when it uses a parameter that is wrong itself.
-  std::optional<Binding> bind(const TomlValue& value, const std::string& unit);
-  double value(const Binding& binding) const;
-
-  /// The value as structure: the parameters that it uses become structural.
-  std::optional<double> fixed(const TomlValue& value, const std::string& unit);
-  std::optional<Rational> exact(const TomlValue& value, const std::string& unit);
-
-  /// An expression over `inputs` and parameters. Its parameters stay parameters.
-  std::optional<Formula> formula(const TomlValue& value, std::span<const std::string> inputs);
-
-  int find(std::string_view name) const;  ///< -1 when there is none
-  const std::string& name(int parameter) const { return entries_[parameter].parameter.name; }
-  /// Where a parameter was declared.
-  Position position(int parameter) const { return entries_[parameter].at; }
+  const ParameterEntry& operator[](int parameter) const { return entries_[parameter]; }
+  /// The parameters, and what they are computed from, fix the structure of the diagram.
+  void mark_structural(std::vector<int> parameters);
   std::vector<Parameter> parameters() const;
 
  private:
-  struct Entry {
-    Parameter parameter;
-    Position at;
-    const TomlValue* source = nullptr;  // number or expression
-    std::optional<Formula> formula;
-    double value = 0.0;
-    std::optional<Rational> exact;
-    Quantity quantity;
-    bool good = false;
-  };
-
-  void declare(const TomlEntry& entry);
-  void declare_table(const TomlEntry& entry, Entry& result);
-  void declare_unit(const TomlValue& unit, Entry& result);
-  void declare_range(const TomlValue& range, Entry& result);
+  void declare(Subsystem& subsystem, const TomlEntry& entry);
+  void declare_table(const TomlEntry& entry, ParameterEntry& result);
+  void declare_range(const TomlValue& range, ParameterEntry& result);
+  void take_value(const TomlEntry& entry, ParameterEntry& result);
+  void check_settings(const Subsystem& subsystem) const;
+  void parse(ParameterEntry& entry);
+  std::vector<int> operands(const ParameterEntry& entry) const;
   void sort();
-  void report_cycle(const std::vector<std::vector<int>>& uses, const std::vector<bool>& sorted);
+  void move_to(const std::vector<int>& order);
+  void report_cycle(const std::vector<std::vector<int>>& uses, const std::vector<bool>& sorted) const;
   std::vector<std::vector<int>> uses() const;
-  void settle(Entry& entry);
-  void check_range(const Entry& entry);
-  std::string wanted_unit(const TomlValue& value, const std::string& declared) const;
-  std::optional<Binding> bind(const TomlValue& value, const Formula& formula, const std::string& unit);
-  std::vector<int> operands(const Formula& formula) const;
-  bool all_good(std::span<const int> operands) const;
-  void mark_structural(const Formula& formula);
-  std::optional<Rational> exact_value(const TomlValue& value, const Formula* formula) const;
+  void settle(ParameterEntry& entry);
+  std::string wanted_unit(const ParameterEntry& entry);
+  void check_range(const ParameterEntry& entry) const;
 
-  Report& report_;
-  std::vector<Entry> entries_;
-  NameIndex names_;
+  const Hierarchy& hierarchy_;
+  std::vector<ParameterEntry> entries_;
 };
 
 }  // namespace flyball

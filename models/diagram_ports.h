@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "models/diagram_blocks.h"
-#include "models/diagram_report.h"
 
 namespace flyball {
 
@@ -31,26 +30,36 @@ struct Port {
   int slot(int k) const { return spec->slots[element >= 0 ? element : k]; }
 };
 
-/// Finds what "block", "block.port" and "block.port.element" stand for.
+/// Finds what "block", "block.port" and "block.port.element" stand for in one subsystem, and "port" and
+/// "port.element" for its own ports.
 class PortNames {
  public:
-  PortNames(const ModelBlocks& blocks, Report& report) : blocks_(blocks), report_(report) {}
+  PortNames(const ModelBlocks& blocks, const Subsystem& subsystem)
+      : blocks_(blocks), subsystem_(subsystem), report_(subsystem.report) {}
 
   /// The block that a piece names; -1 when there is none, which is reported.
-  int block(const Piece& piece);
+  int block(const Piece& piece) const;
+  /// -1 when there is none.
+  int find(std::string_view block) const;
   /// The port; without its name the only one, or the only input that must be connected. Nothing when there is
   /// none (which is reported), and when the block could not be constructed.
-  std::optional<Port> port(const Piece& piece, bool is_input);
-  /// "block.port", with ".element" for one element of a port.
-  std::string name(const Port& port, int k) const;
+  std::optional<Port> port(const Piece& piece, bool is_input) const;
+  const Report& report() const { return report_; }
+  /// A port of the subsystem itself, whatever its direction; nothing when the piece names none.
+  std::optional<Port> own_port(const Piece& piece) const;
 
  private:
-  const PortSpec* only_port(const Piece& piece, int instance, bool is_input);
-  const PortSpec* named_port(const Piece& piece, int instance, std::string_view name, bool is_input);
-  bool select_element(const Piece& piece, std::string_view name, Port& port);
+  std::optional<Port> element(const Piece& piece, std::size_t start, Port port) const;
+  const PortSpec* only_port(const Piece& piece, int instance, bool is_input) const;
+  const PortSpec* named_port(const Piece& piece, int instance, std::string_view name, bool is_input) const;
+  std::vector<std::string> names() const;
 
   const ModelBlocks& blocks_;
-  Report& report_;
+  const Subsystem& subsystem_;
+  const Report& report_;
 };
+
+/// "block.port" as its own file calls it, with ".element" for element `k` of a vector.
+std::string name_of(const ModelBlocks& blocks, const Port& port, int k);
 
 }  // namespace flyball

@@ -56,7 +56,7 @@ std::optional<long> TableSettings::integer(std::string_view key) {
   const TomlValue* value = find(key, as_whole);
   if (value == nullptr) return std::nullopt;
   if (value->is(Kind::string)) {
-    const auto whole = parameters_.exact(*value, "1");
+    const auto whole = expressions_.exact(*value, "1");
     if (whole && whole->denominator() == 1) return whole->numerator();
     if (whole) report_.error(*value, message::not_whole(whole->value()));
     return std::nullopt;
@@ -85,7 +85,7 @@ std::optional<bool> TableSettings::flag(std::string_view key) {
 std::optional<Rational> TableSettings::exact(std::string_view key) {
   const TomlValue* value = find(key, as_time);
   // Structure that is read exactly is time: sample times and offsets.
-  return value == nullptr ? std::nullopt : parameters_.exact(*value, "s");
+  return value == nullptr ? std::nullopt : expressions_.exact(*value, "s");
 }
 
 std::optional<std::vector<std::string>> TableSettings::list(std::string_view key) {
@@ -129,9 +129,9 @@ std::optional<Shape> TableSettings::shape(std::string_view key) {
 
 std::shared_ptr<const Formula> TableSettings::formula(std::string_view key,
                                                       const std::vector<std::string>& inputs) {
-  const TomlValue* value = find(key, as_written);
+  const TomlValue* value = find(key, as_formula);
   if (value == nullptr || !report_.expect(*value, Kind::string, "an expression in quotes")) return nullptr;
-  auto parsed = parameters_.formula(*value, inputs);
+  auto parsed = expressions_.formula(*value, inputs);
   return parsed ? std::make_shared<const Formula>(*std::move(parsed)) : nullptr;
 }
 
@@ -174,7 +174,7 @@ void TableSettings::refuse(std::string_view key, std::string message) {
 }
 
 void TableSettings::append_exact(std::string& result, const TomlValue& value, const std::string& unit) {
-  const auto number = parameters_.exact(value, unit);
+  const auto number = expressions_.exact(value, unit);
   if (!number) return;
   fmt::format_to(std::back_inserter(result), "{}/{}", number->numerator(), number->denominator());
 }
@@ -184,6 +184,12 @@ void TableSettings::append_shape(std::string& result, std::string_view key) {
   if (!form) return;
   fmt::format_to(std::back_inserter(result), "{}x{}:", form->rows, form->columns);
   for (const bool zero : form->zero) result += zero ? '0' : '1';
+}
+
+/// What a formula means also depends on the names that it sees: those of one definition.
+void TableSettings::append_formula(std::string& result, const TomlValue& value) {
+  append(result, value);
+  fmt::format_to(std::back_inserter(result), "@{}", expressions_.subsystem().type.number);
 }
 
 std::string TableSettings::structure(const Uses& uses) {
@@ -200,6 +206,7 @@ std::string TableSettings::structure(const Uses& uses) {
     if ((use & as_whole) != 0) append_exact(result, *value, "1");
     if ((use & as_file) != 0 && value->is(Kind::string)) result += path_of(*value);
     if ((use & as_shape) != 0) append_shape(result, key);
+    if ((use & as_formula) != 0) append_formula(result, *value);
     result += ';';
   }
   return result;

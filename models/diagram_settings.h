@@ -5,8 +5,7 @@
 
 #include "blocks/settings.h"
 #include "models/diagram_data.h"
-#include "models/diagram_parameters.h"
-#include "models/diagram_report.h"
+#include "models/diagram_expressions.h"
 
 namespace flyball {
 
@@ -14,15 +13,22 @@ namespace flyball {
 class TableSettings : public Settings {
  public:
   /// How a key was read: more than one bit may be set.
-  enum Use : unsigned { as_written = 1, as_time = 2, as_whole = 4, as_shape = 8, as_file = 16 };
+  enum Use : unsigned {
+    as_written = 1,
+    as_time = 2,
+    as_whole = 4,
+    as_shape = 8,
+    as_formula = 16,
+    as_file = 32
+  };
   using Uses = std::map<std::string, unsigned, std::less<>>;
 
-  TableSettings(const TomlEntry& block, ModelParameters& parameters, DataFiles& files, Report& report)
+  TableSettings(const TomlEntry& block, const Expressions& expressions, DataFiles& files)
       : block_(block),
-        parameters_(parameters),
+        expressions_(expressions),
         files_(files),
-        report_(report),
-        errors_before_(report.errors()) {}
+        report_(expressions.subsystem().report),
+        errors_before_(report_.errors()) {}
 
   bool given(std::string_view key) const override;
   std::optional<std::string> text(std::string_view key) override;
@@ -47,11 +53,12 @@ class TableSettings : public Settings {
   std::string path_of(const TomlValue& file) const;
   void append_exact(std::string& result, const TomlValue& value, const std::string& unit);
   void append_shape(std::string& result, std::string_view key);
+  void append_formula(std::string& result, const TomlValue& value);
 
   const TomlEntry& block_;
-  ModelParameters& parameters_;
+  const Expressions& expressions_;
   DataFiles& files_;
-  Report& report_;
+  const Report& report_;
   int errors_before_;
   int refusals_ = 0;
   mutable Uses uses_;

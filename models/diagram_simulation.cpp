@@ -15,16 +15,17 @@ const std::vector<std::string>& methods() {
 
 class SimulationReader {
  public:
-  SimulationReader(const std::vector<std::string>& states, ModelParameters& parameters, Report& report)
-      : states_(states), parameters_(parameters), report_(report) {}
+  SimulationReader(const std::vector<std::string>& states, const Expressions& expressions)
+      : states_(states), expressions_(expressions), report_(expressions.subsystem().report) {}
 
   SimulationSettings read(const TomlValue& section) {
-    report_.check_keys(section, "[simulation]", {"stop", "solver", "log_interval", "algebraic_loops", "seed"});
+    report_.check_keys(section, "[simulation]",
+                       {"stop", "solver", "log_interval", "algebraic_loops", "seed"});
     settings_.stop = above_zero(section, "stop", "s").value_or(settings_.stop);
     if (const TomlValue* seed = section.find("seed")) read_seed(*seed);
     if (const TomlValue* solver = section.find("solver")) read_solver(*solver);
     if (above_zero(section, "log_interval", "s")) {
-      settings_.log_interval = parameters_.exact(*section.find("log_interval"), "s");
+      settings_.log_interval = expressions_.exact(*section.find("log_interval"), "s");
     }
     if (const TomlValue* loops = section.find("algebraic_loops")) read_loops(*loops);
     return settings_;
@@ -68,23 +69,23 @@ class SimulationReader {
 
   std::optional<double> above_zero(const TomlValue& table, std::string_view key, const std::string& unit) {
     const TomlValue* value = table.find(key);
-    const auto number = value == nullptr ? std::nullopt : parameters_.fixed(*value, unit);
+    const auto number = value == nullptr ? std::nullopt : expressions_.fixed(*value, unit);
     if (!number || *number > 0.0) return number;
     report_.error(*value, message::out_of_range(key, *number, positive, unit));
     return std::nullopt;
   }
 
   const std::vector<std::string>& states_;
-  ModelParameters& parameters_;
-  Report& report_;
+  const Expressions& expressions_;
+  const Report& report_;
   SimulationSettings settings_;
 };
 
 }  // namespace
 
 SimulationSettings read_simulation(const TomlValue& section, const std::vector<std::string>& states,
-                                   ModelParameters& parameters, Report& report) {
-  return SimulationReader(states, parameters, report).read(section);
+                                   const Expressions& expressions) {
+  return SimulationReader(states, expressions).read(section);
 }
 
 }  // namespace flyball

@@ -1,13 +1,12 @@
 #pragma once
 
 #include "models/diagram.h"
-#include "models/diagram_parameters.h"
-#include "models/diagram_report.h"
+#include "models/diagram_expressions.h"
 
 namespace flyball {
 
 /// [simulation] of a diagram with these continuous states ("plant.x"). What is not given keeps its default.
 SimulationSettings read_simulation(const TomlValue& section, const std::vector<std::string>& states,
-                                   ModelParameters& parameters, Report& report);
+                                   const Expressions& expressions);
 
 }  // namespace flyball

@@ -17,11 +17,9 @@ std::string Plan::slot_name(int slot) const {
 }
 
 int Plan::parameter_slot(std::string_view name) const {
-  const auto dot = name.find('.');
-  if (dot == std::string_view::npos) {
-    const int p = diagram->find_parameter(name);
-    return p < 0 ? -1 : model_slots[p];
-  }
+  if (const int p = diagram->find_parameter(name); p >= 0) return model_slots[p];
+  const auto dot = name.rfind('.');
+  if (dot == std::string_view::npos) return -1;
   const int i = diagram->find_instance(name.substr(0, dot));
   if (i < 0) return -1;
   for (const auto& [local, binding] : instance(i).parameters) {

@@ -189,7 +189,8 @@ struct Plan {
   const Instance& instance(int i) const { return diagram->instances[i]; }
   /// "plant.y", "K_gamma", "time".
   std::string slot_name(int slot) const;
-  /// The slot of a parameter of the model or of "block.parameter"; -1 when there is none.
+  /// The slot of a parameter of the model or of a subsystem ("K_gamma", "motor.R"), or of "block.parameter"
+  /// ("motor.winding.gain"); -1 when there is none.
   int parameter_slot(std::string_view name) const;
 };
 

@@ -23,6 +23,10 @@ void require(double value, const Range& range, auto&& name) {
 int settable_parameter(const Plan& plan, std::string_view name) {
   const int slot = plan.parameter_slot(name);
   if (slot < 0) throw std::invalid_argument(fmt::format("there is no parameter {}", name));
+  const int p = plan.diagram->find_parameter(name);
+  // A parameter that only repeats another one has its slot: writing it would change that one, too.
+  if (p >= 0 && plan.diagram->parameters[p].binding.kind == Binding::Kind::parameter)
+    throw std::invalid_argument(fmt::format("{} is computed from other parameters", name));
   require_settable(plan, slot);
   return slot;
 }

@@ -12,12 +12,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json model_of(const RunResult& result, const RunInputs& inputs) {
-  Json model = {{"file", inputs.model_file},
-                {"title", result.plan->diagram->title},
-                {"source", result.plan->diagram->source},
-                {"hash", fingerprint(inputs.model_text)},
-                {"set", Json::object()}};
-  for (const DataFile& file : result.plan->diagram->data_files) model["data"][file.name] = file.hash;
+  const Diagram& diagram = *result.plan->diagram;
+  Json model = {{"file", inputs.model_file}, {"title", diagram.title},
+                {"source", diagram.source},  {"hash", model_fingerprint(inputs.model_text, diagram)},
+                {"uses", Json::array()},     {"set", Json::object()}};
+  for (const UsedFile& used : diagram.used_files)
+    model["uses"].push_back({{"file", used.name}, {"hash", fingerprint(used.text)}});
+  for (const DataFile& file : diagram.data_files) model["data"][file.name] = file.hash;
   for (const Override& value : inputs.overrides) model["set"][value.name] = value.value;
   return model;
 }
@@ -60,6 +61,13 @@ Json last_row_of(const Log& log) {
 }
 
 }  // namespace
+
+std::string model_fingerprint(std::string_view model_text, const Diagram& diagram) {
+  std::string all(model_text);
+  // No model holds a byte 0, so that the ends of files are where they are.
+  for (const UsedFile& used : diagram.used_files) all.append(1, '\0').append(used.text);
+  return fingerprint(all);
+}
 
 std::string metadata_json(const RunResult& result, const RunInputs& inputs, std::string_view csv_name,
                           std::string_view csv) {

@@ -16,9 +16,13 @@ struct RunInputs {
   std::vector<Override> overrides;
 };
 
-/// The sidecar of a result, as JSON text: model (with a hash of its text), columns with units, solver with
-/// its tolerances and statistics, status, versions, and, where `csv` is given, the file's name and checksum.
-/// An unknown unit is empty. Nothing in it depends on the machine's speed: equal runs give equal bytes.
+/// The fingerprint of a model's text together with the files that it uses: a library that changes changes it.
+std::string model_fingerprint(std::string_view model_text, const Diagram& diagram);
+
+/// The sidecar of a result, as JSON text: model (with a hash of its text and of the files that it uses),
+/// columns with units, solver with its tolerances and statistics, status, versions, and, where `csv` is
+/// given, the file's name and checksum. An unknown unit is empty. Nothing in it depends on the machine's
+/// speed: equal runs give equal bytes.
 std::string metadata_json(const RunResult& result, const RunInputs& inputs, std::string_view csv_name = {},
                           std::string_view csv = {});
 

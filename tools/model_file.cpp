@@ -13,7 +13,7 @@ ModelFile load_model(const std::string& file, const std::vector<Override>& overr
     model.plan = make_plan(std::make_shared<const Diagram>(*std::move(diagram)), diagnostics);
   }
   model.diagnostics = diagnostics.sorted();
-  model.errors = diagnostics.errors();
+  model.errors = count_errors(model.diagnostics);
   return model;
 }
 

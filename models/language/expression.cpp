@@ -79,7 +79,18 @@ class ExactEvaluation {
 
 bool Scope::knows(std::string_view name) const {
   return (parameters != nullptr && parameters->contains(name)) ||
-         std::ranges::find(inputs, name) != inputs.end();
+         std::ranges::find(inputs, name) != inputs.end() || (outer != nullptr && outer->knows(name));
+}
+
+std::vector<std::string> Scope::names() const {
+  std::vector<std::string> all;
+  for (const Scope* scope = this; scope != nullptr; scope = scope->outer) {
+    all.insert(all.end(), scope->inputs.begin(), scope->inputs.end());
+    if (scope->parameters == nullptr) continue;
+    for (const auto& [name, index] : *scope->parameters) all.push_back(name);
+  }
+  std::ranges::sort(all);
+  return all;
 }
 
 bool is_reserved(std::string_view name) {

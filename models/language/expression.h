@@ -16,8 +16,11 @@ namespace flyball {
 struct Scope {
   const NameIndex* parameters = nullptr;
   std::span<const std::string> inputs;
+  const Scope* outer = nullptr;  // whose names are seen, too
 
   bool knows(std::string_view name) const;
+  /// All of them in alphabetical order, for suggestions.
+  std::vector<std::string> names() const;
 };
 
 /// Parses an expression. By rising strength: or; and; not; < <= > >=; + -; * /; unary + -; ^ (from the

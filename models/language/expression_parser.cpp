@@ -173,16 +173,7 @@ class ExpressionParser {
     constant.offset = static_cast<int>(offset);
     constant.value = name == "pi" ? M_PI : M_E;
     if (name == "pi" || name == "e") return build_.literal(std::move(constant));
-    throw TextError(offset, message::unknown_name(name, known_names()));
-  }
-
-  std::vector<std::string> known_names() const {
-    std::vector<std::string> names(scope_.inputs.begin(), scope_.inputs.end());
-    if (scope_.parameters != nullptr) {
-      for (const auto& [name, index] : *scope_.parameters) names.push_back(name);
-    }
-    std::ranges::sort(names);
-    return names;
+    throw TextError(offset, message::unknown_name(name, scope_.names()));
   }
 
   int call(std::string_view name, std::size_t offset) {

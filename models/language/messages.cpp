@@ -106,6 +106,49 @@ std::string no_such_entry(Text block, Text setting) {
   return format("block \"{}\" has no entry {} in the file", block, setting);
 }
 
+std::string used_here(Text name) { return format("used here, as \"{}\"", name); }
+std::string unreadable_file(Text file, Text reason) { return format("{} cannot be read: {}", file, reason); }
+std::string file_without_ports() {
+  return "this file has no section [ports], so it cannot be used as a block";
+}
+std::string cyclic_subsystems(Text chain) { return format("subsystems contain each other: {}", chain); }
+std::string hierarchy_too_deep(int limit) {
+  return format("subsystems are nested more than {} levels deep", limit);
+}
+std::string too_many_blocks(long limit) { return format("this takes the model beyond {} blocks", limit); }
+std::string name_of_block_type(Text name) {
+  return format("\"{}\" is a block type already; give the subsystem another name", name);
+}
+std::string block_and_port(Text name) {
+  return format("\"{}\" is the name of a port, too; give one of them another name", name);
+}
+std::string unused_subsystem(Text name) {
+  return format("subsystem \"{}\" is not used, so it was not checked", name);
+}
+std::string subsystem_keeps_type() { return "the type of a subsystem cannot be set"; }
+std::string no_parts(Text block) { return format("\"{}\" is a block without parts", block); }
+std::string missing_parameter(Text block, Text type, Text parameter) {
+  return format("{} needs a value for \"{}\": {} gives none", block, parameter, type);
+}
+std::string element_count(std::int64_t found, int limit) {
+  return format("expected from 1 to {} elements, found {}", limit, found);
+}
+std::string no_elements() { return "expected at least one element, found an empty list"; }
+std::string unit_count(std::size_t elements, std::size_t units) {
+  return format("expected one unit, or one for each of {} elements, found {}", elements, units);
+}
+std::string port_direction(Text port, bool is_input) {
+  return is_input ? format("{} is an input of this subsystem: inside, wires begin at it", port)
+                  : format("{} is an output of this subsystem: inside, wires end at it", port);
+}
+std::string output_not_driven(Text port) { return format("output {} is not connected inside", port); }
+std::string input_of_model_open(Text port) {
+  return format("input {} has no default: this file runs as part of another model only", port);
+}
+std::string ports_in_a_circle(Text port) {
+  return format("{} only passes its own value on, so nothing gives it one", port);
+}
+
 std::string unknown_unit(Text name) {
   return format("unknown unit \"{}\"{}", name, suggestion(name, unit_names()));
 }
@@ -255,8 +298,11 @@ std::string block_of_type(Text block, Text type) {
 std::string driven_twice(Text input) { return format("{} is driven by two wires", input); }
 std::string first_wire_here() { return "the first wire is here"; }
 std::string not_connected(Text input, Text unit, Text doc) {
-  const std::string in = unit == "any" ? "" : format(", in {}", unit);
-  return format("input {} is not connected ({}{})", input, doc, in);
+  Names about;
+  if (!doc.empty()) about.emplace_back(doc);
+  if (unit != "any") about.push_back(format("in {}", unit));
+  const std::string what = about.empty() ? "" : format(" ({})", fmt::join(about, ", "));
+  return format("input {} is not connected{}", input, what);
 }
 std::string nothing_to_log(Text block) { return format("{} has no output that is a number", block); }
 std::string logged_object(Text port) { return format("{} is an object; only numbers are logged", port); }

@@ -34,6 +34,27 @@ std::string not_a_name(Text name);
 std::string in_override(Text name, Text message);
 std::string no_such_entry(Text block, Text setting);
 
+// Subsystems.
+std::string used_here(Text name);
+std::string unreadable_file(Text file, Text reason);
+std::string file_without_ports();
+std::string cyclic_subsystems(Text chain);
+std::string hierarchy_too_deep(int limit);
+std::string too_many_blocks(long limit);
+std::string name_of_block_type(Text name);
+std::string block_and_port(Text name);
+std::string unused_subsystem(Text name);
+std::string subsystem_keeps_type();
+std::string no_parts(Text block);
+std::string missing_parameter(Text block, Text type, Text parameter);
+std::string element_count(std::int64_t found, int limit);
+std::string no_elements();
+std::string unit_count(std::size_t elements, std::size_t units);
+std::string port_direction(Text port, bool is_input);
+std::string output_not_driven(Text port);
+std::string input_of_model_open(Text port);
+std::string ports_in_a_circle(Text port);
+
 // Units.
 std::string unknown_unit(Text name);
 std::string expected_in_unit(Text expected);

@@ -47,7 +47,8 @@ std::size_t skip_string(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-SourceText::SourceText(std::string text) : text_(std::move(text)), line_starts_{0} {
+SourceText::SourceText(std::string text, int number)
+    : text_(std::move(text)), number_(number), line_starts_{0} {
   for (std::size_t at = text_.find('\n'); at != std::string::npos; at = text_.find('\n', at + 1)) {
     line_starts_.push_back(at + 1);
   }
@@ -59,7 +60,7 @@ Position SourceText::position(std::size_t offset) const {
   const auto first = text_.begin() + static_cast<std::ptrdiff_t>(line_starts_[line - 1]);
   const auto last = text_.begin() + static_cast<std::ptrdiff_t>(offset);
   const auto characters = std::count_if(first, last, [](char c) { return !continues(c); });
-  return {static_cast<int>(line), static_cast<int>(characters) + 1};
+  return {static_cast<int>(line), static_cast<int>(characters) + 1, number_};
 }
 
 std::size_t SourceText::offset(Position at) const {

@@ -14,7 +14,10 @@ namespace flyball {
 /// points).
 class SourceText {
  public:
-  explicit SourceText(std::string text);
+  /// Its positions are in source `number` of the diagnostics.
+  explicit SourceText(std::string text, int number = 0);
+
+  int number() const { return number_; }
 
   const std::string& text() const { return text_; }
   Position position(std::size_t offset) const;
@@ -23,6 +26,7 @@ class SourceText {
 
  private:
   std::string text_;
+  int number_;
   std::vector<std::size_t> line_starts_;
 };
 

@@ -19,8 +19,8 @@
 namespace flyball {
 namespace {
 
-Position position_of(const toml::source_position& at) {
-  return {static_cast<int>(at.line), static_cast<int>(at.column)};
+Position position_of(const toml::source_position& at, const SourceText& source) {
+  return {static_cast<int>(at.line), static_cast<int>(at.column), source.number()};
 }
 
 /// A key that stood twice was renamed, so that the text could be parsed: its new place and its name.
@@ -33,7 +33,7 @@ class Converter {
 
   TomlValue value(const toml::node& node) {
     TomlValue result;
-    result.at = position_of(node.source().begin);
+    result.at = position_of(node.source().begin, source_);
     switch (node.type()) {
       case toml::node_type::table:
         table(*node.as_table(), result);
@@ -84,7 +84,7 @@ class Converter {
     std::vector<std::pair<Position, std::pair<std::string_view, const toml::node*>>> sorted;
     sorted.reserve(table.size());
     for (const auto& [key, node] : table) {
-      sorted.push_back({position_of(key.source().begin), {key.str(), &node}});
+      sorted.push_back({position_of(key.source().begin, source_), {key.str(), &node}});
     }
     std::ranges::sort(sorted, {}, [](const auto& entry) { return entry.first; });
     result.entries.reserve(sorted.size());
@@ -92,7 +92,7 @@ class Converter {
       if (const auto again = renamed_.find(at); again != renamed_.end()) {
         diagnostics_.error(at, message::stands_twice(again->second));
         if (const auto first = table.find(again->second); first != table.end()) {
-          diagnostics_.note(position_of(first->first.source().begin),
+          diagnostics_.note(position_of(first->first.source().begin, source_),
                             message::first_stands_here(again->second));
         }
         continue;
@@ -108,7 +108,7 @@ class Converter {
 
 /// Gives the key before `value_at` another name of the same length, in place; false when there is none.
 bool rename_key_before(Position value_at, std::string& text, Renamed& renamed) {
-  const SourceText source(text);
+  const SourceText source(text, value_at.source);
   const auto before = [&](std::string_view skipped, std::size_t at) {
     return text.find_last_not_of(skipped, at);
   };
@@ -205,17 +205,17 @@ Position TomlDocument::inside(const TomlValue& string, std::size_t offset) const
   return source_.position(at);
 }
 
-std::optional<TomlDocument> parse_toml(std::string_view text, Diagnostics& diagnostics) {
+std::optional<TomlDocument> parse_toml(std::string_view text, Diagnostics& diagnostics, int number) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  SourceText source{std::string(text)};
+  SourceText source(std::string(text), number);
   if (!check_encoding(source, diagnostics)) return std::nullopt;
   Renamed renamed;
   std::string readable = source.text();
   toml::parse_result parsed = toml::parse(readable);
   while (!parsed) {
     const toml::parse_error& error = parsed.error();
-    const Position at = position_of(error.source().begin);
+    const Position at = position_of(error.source().begin, source);
     if (is_duplicate(error) && rename_key_before(at, readable, renamed)) {
       parsed = toml::parse(readable);
       continue;

@@ -51,6 +51,7 @@ class TomlDocument {
 
   const TomlValue& root() const { return root_; }
   TomlValue& root() { return root_; }
+  const std::string& text() const { return source_.text(); }
   /// Where byte `offset` of the content of `string` stands, whatever its quotes and escapes.
   Position inside(const TomlValue& string, std::size_t offset) const;
 
@@ -64,7 +65,7 @@ inline constexpr int deepest_nesting = 64;
 
 /// Parses a text. Everything that is wrong is reported; nothing comes back when there is no tree to go on
 /// with. NaN, infinities and keys that stand twice are reported; the tree holds the former, but not the
-/// latter.
-std::optional<TomlDocument> parse_toml(std::string_view text, Diagnostics& diagnostics);
+/// latter. Positions are in source `source` of the diagnostics.
+std::optional<TomlDocument> parse_toml(std::string_view text, Diagnostics& diagnostics, int source = 0);
 
 }  // namespace flyball

@@ -1,4 +1,5 @@
 // Each broken model NAME.toml beside this file with what is said about it, line by line, in NAME.expected.
+// Files that these models use are in the folder `parts`.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -43,6 +44,8 @@ std::string said_about(const std::string& name, std::string_view text) {
 TEST_CASE("broken models are told what is wrong, line by line") {
   const auto all = models();
   REQUIRE(all.size() > 20);
+  // Used files are found from the path of the model.
+  fs::current_path(folder);
   for (const fs::path& path : all) {
     DYNAMIC_SECTION(path.stem().string()) {
       const std::string expected = content(fs::path(path).replace_extension(".expected"));

@@ -17,7 +17,15 @@ V = { value = "500 mm/s", doc = "speed", range = [0.0, 2.0] }
 L = { value = 0.3, unit = "m" }
 turn = "if(V > 0.2 m/s, -2*V/L, min(V/L, 1 1/s))"
 Ts = "1/3 s"
+[subsystems.Lag]
+ports.inputs.u = { unit = "any", default = "2*V" }
+ports.outputs.y = { elements = ["x", "v"] }
+parameters = { T = { value = "1 s", range = ["1 ms", "1 h"] }, k = 1.0 }
+subsystems.Rate = { ports = { inputs = { u = "any" }, outputs = { y = "any" } }, blocks = { g = { type = "Gain", gain = "k/T" } }, diagram = { wires = ["u -> g -> y"] } }
+blocks = { error = { type = "Sum", signs = "+-" }, rate = { type = "Rate" }, x = { type = "Integrator" } }
+diagram.wires = ["u -> error.u1", "error -> rate -> x -> error.u2", "x -> y.x", "rate -> y.v"]
 [blocks]
+lag = { type = "Lag", T = "Ts" }
 step = { type = "Step", time = "10 ms", after = "V" }
 error = { type = "Sum", signs = "+-" }
 control = { type = "PID", Kp = "2*turn", Ki = 0.5, setpoint_weights = false }
@@ -34,8 +42,9 @@ wires = [
   "drive.pose.x -> split.u1",
   "drive.pose.y -> split.u2, square.u1",
   "held -> split.u3, square.u2",
+  "held -> lag",
 ]
-log = ["plant", "drive.pose", "split.y.3"]
+log = ["plant", "drive.pose", "split.y.3", "lag.y", "lag.rate.g"]
 [simulation]
 stop = "10 s"
 solver = { method = "dp5", rtol = 1e-8, max_step = "0.1 s" }
@@ -96,7 +105,7 @@ TEST_CASE("the text that is mutated is a valid model") {
   const auto diagram = read_diagram(valid, diagnostics);
   for (const Diagnostic& diagnostic : diagnostics.sorted()) UNSCOPED_INFO(to_string(diagnostic));
   REQUIRE(diagram.has_value());
-  CHECK(diagram->logged.size() == 5);
+  CHECK(diagram->logged.size() == 8);
 }
 
 TEST_CASE("mutations of a model give a diagram or positioned errors") {

@@ -61,6 +61,7 @@ write() {
   local name=${options#*file=} old
   [[ $options == file=* ]] || fail "a toml block needs file=NAME"
   name=${name%% *}
+  mkdir -p -- "$(dirname -- "$name")"
   if [[ $options == *from=* ]]; then
     old=${options#*from=}
     with_lines_replaced "$body" "${old%% *}" >"$steps/copy" || fail "$old does not have these lines"

@@ -89,6 +89,26 @@ TEST_CASE("Result: the sidecar says what the rows are, where they came from and 
   CHECK(json["libraries"]["sundials"].get<std::string>().substr(0, 1) >= "6");
 }
 
+TEST_CASE("Result: the hash of a model covers the files that it uses") {
+  RunResult result = run({});
+  const RunInputs inputs{"decay.toml", std::string(decay), {}};
+  const auto model_of = [&](const std::vector<UsedFile>& used) {
+    Diagram diagram = *result.plan->diagram;
+    diagram.used_files = used;
+    auto plan = std::make_shared<Plan>(*result.plan);
+    plan->diagram = std::make_shared<const Diagram>(std::move(diagram));
+    result.plan = plan;
+    return nlohmann::json::parse(metadata_json(result, inputs))["model"];
+  };
+  const auto one = model_of({{"gain.toml", "a"}});
+  CHECK(one["uses"][0]["file"] == "gain.toml");
+  CHECK(one["uses"][0]["hash"] == fingerprint("a"));
+  CHECK(one["hash"] != model_of({})["hash"]);
+  CHECK(one["hash"] != model_of({{"gain.toml", "b"}})["hash"]);
+  // Where one file ends and the next begins counts, too.
+  CHECK(model_of({{"x", "ab"}, {"y", "c"}})["hash"] != model_of({{"x", "a"}, {"y", "bc"}})["hash"]);
+}
+
 TEST_CASE("Result: a run that has to stop keeps its rows and says why") {
   const RunResult result = run({{"limit", "0.5"}});
   CHECK(result.status == RunStatus::stopped);
