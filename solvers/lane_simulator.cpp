@@ -137,10 +137,6 @@ std::string refuses_lanes(const Plan& plan, const SimulationSettings& settings) 
   if (settings.method != "dp5" && settings.method != "auto")
     return fmt::format("lanes run with the method dp5, not with {}", settings.method);
   if (plan.layout.states() == 0) return "there are no states to integrate";
-  if (!plan.run_ends.empty())
-    return fmt::format("{} may end a run before the others",
-                       plan.instance(plan.owner[plan.run_ends[0]]).name);
-  if (!plan.loops.empty()) return "algebraic loops are solved one run at a time";
   for (const Instance& instance : plan.diagram->instances) {
     const BlockType& type = *instance.object->type;
     if (!has_lanes(type))
