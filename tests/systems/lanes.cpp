@@ -208,6 +208,16 @@ stop = "1 s"
   CHECK(refuses_lanes(*stateless.plan, stateless.settings) == "there are no states to integrate");
 }
 
+TEST_CASE("Where auto leaves dp5, no run goes in lockstep") {
+  Model model = shipped("classic/van_der_pol_stiff.toml");
+  model.settings.method = "auto";
+  const auto outcomes = run_lanes(model, std::vector<ParameterSet>(2));
+  for (const LaneOutcome& outcome : outcomes) {
+    CHECK(outcome.alone);
+    CHECK(outcome.values == alone(model, {}));
+  }
+}
+
 TEST_CASE("Parameters of lanes are checked as those of a run") {
   const Model model = shipped("classic/bouncing_ball.toml");
   CHECK_THROWS_WITH(run_lanes(model, sweep(model, "ball.restitution", {0.5, 1.5})),
