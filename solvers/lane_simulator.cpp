@@ -154,6 +154,10 @@ std::string refuses_lanes(const Plan& plan, const SimulationSettings& settings) 
   if (settings.method != "dp5" && settings.method != "auto")
     return fmt::format("lanes run with the method dp5, not with {}", settings.method);
   if (plan.layout.states() == 0) return "there are no states to integrate";
+  if (!plan.chains.empty()) return "an algebraic loop is solved for one run at a time";
+  for (const int slot : plan.run_ends) {
+    return fmt::format("{} may end a run before the others", plan.instance(plan.owner[slot]).name);
+  }
   for (const Instance& instance : plan.diagram->instances) {
     const BlockType& type = *instance.object->type;
     if (!has_lanes(type))
