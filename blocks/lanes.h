@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "blocks/isa.h"
+#include "blocks/random.h"
 #include "blocks/scalar.h"
 
 namespace flyball {
@@ -148,6 +149,8 @@ class alignas(8 * lane_count) Lanes {
   friend Lanes pow(const Lanes& x, const Lanes& y) {
     return map(x, y, [](double a, double b) { return std::pow(a, b); });
   }
+  friend Lanes uniform(const Lanes& stream, const Lanes& k) { return map(stream, k, uniform_number); }
+  friend Lanes normal(const Lanes& stream, const Lanes& k) { return map(stream, k, normal_number); }
   friend Lanes atan2(const Lanes& x, const Lanes& y) {
     return map(x, y, [](double a, double b) { return std::atan2(a, b); });
   }
@@ -224,6 +227,11 @@ class alignas(8 * lane_count) LaneBit {
  private:
   Masks part_[parts];
 };
+
+/// Each lane has a count of its own: a block that needs it says that it has no lockstep
+/// (blocks/lane_kernels.h).
+template <Isa isa>
+int index_of(const Lanes<isa>& count) = delete;
 
 template <Isa isa>
 struct BitOf<Lanes<isa>> {

@@ -54,7 +54,7 @@ class Runner {
       : plan_(std::move(plan)), settings_(settings), sets_(sets), options_(options), outcomes_(sets.size()) {}
 
   std::vector<LaneOutcome> run() {
-    const bool lanes = refuses_lanes(*plan_, settings_).empty();
+    const bool lanes = runs() > 0 && refuses_lanes(*plan_, settings_).empty() && begins_explicitly();
     const int size = lanes ? lane_count : 1;
     const int tasks = (runs() + size - 1) / size;
     const int workers = std::clamp(options_.threads, 1, std::max(tasks, 1));
@@ -96,6 +96,23 @@ class Runner {
     }
   }
 
+  /// The method auto turns away from dp5 where a run is stiff, and lanes do not: so the first run decides.
+  bool begins_explicitly() {
+    if (settings_.method != "auto") return true;
+    Simulator simulator(plan_, settings_, {.enabled = false});
+    set_parameters(simulator, sets_.front());
+    try {
+      simulator.run();
+    } catch (const SimulationError&) {
+      // Of this run alone; it says nothing about the others.
+    }
+    return simulator.method().method == "dp5";
+  }
+
+  void set_parameters(Simulator& simulator, const ParameterSet& set) const {
+    for (const auto& [slot, value] : set) simulator.set_parameter(plan_->slot_name(slot), value);
+  }
+
   /// False where the run fails before it begins.
   bool begin(const ParameterSet& set, Workspace<double>& workspace) const {
     for (const Start& literal : plan_->literals) workspace.values[literal.slot] = literal.value;
@@ -114,7 +131,7 @@ class Runner {
     LaneOutcome& outcome = outcomes_[run];
     outcome.alone = true;
     Simulator simulator(plan_, settings_, options_.log);
-    for (const auto& [slot, value] : sets_[run]) simulator.set_parameter(plan_->slot_name(slot), value);
+    set_parameters(simulator, sets_[run]);
     try {
       simulator.run();
     } catch (const SimulationError& error) {
@@ -137,6 +154,10 @@ std::string refuses_lanes(const Plan& plan, const SimulationSettings& settings) 
   if (settings.method != "dp5" && settings.method != "auto")
     return fmt::format("lanes run with the method dp5, not with {}", settings.method);
   if (plan.layout.states() == 0) return "there are no states to integrate";
+  if (!plan.chains.empty()) return "an algebraic loop is solved for one run at a time";
+  for (const int slot : plan.run_ends) {
+    return fmt::format("{} may end a run before the others", plan.instance(plan.owner[slot]).name);
+  }
   for (const Instance& instance : plan.diagram->instances) {
     const BlockType& type = *instance.object->type;
     if (!has_lanes(type))

@@ -32,9 +32,10 @@ struct LaneOutcome {
 std::string refuses_lanes(const Plan& plan, const SimulationSettings& settings);
 
 /// Runs a plan once for each set of parameters: `lane_count` neighbours of the list at a time in lockstep,
-/// with the error of the worst run and the events of all. Where that is not possible (`refuses_lanes`), or
-/// one run fails, they run one by one. The same list gives the same numbers with any number of threads and
-/// any instruction set. Throws std::invalid_argument where a parameter cannot be set.
+/// with the error of the worst run and the events of all. Where that is not possible (`refuses_lanes`),
+/// where the method auto leaves dp5 in the first run, or where one run fails, they run one by one. The same
+/// list gives the same numbers with any number of threads and any instruction set. Throws
+/// std::invalid_argument where a parameter cannot be set.
 std::vector<LaneOutcome> run_in_lanes(const std::shared_ptr<const Plan>& plan,
                                       const SimulationSettings& settings, std::span<const ParameterSet> sets,
                                       const LaneOptions& options = {});
