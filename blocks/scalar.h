@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -66,14 +67,19 @@ inline double value_of(const Jet& x);
 inline bool nonzero(double x) { return x != 0.0; }
 inline bool nonzero(const Jet& x);
 
-/// The whole number that a held value counts, to look up a table with in a handler. Scalars without a value
-/// give the first entry, which stands for all.
+/// Entry number `count`, from 0 to size - 1, of a table, for handlers: a held value counts. Each lane looks
+/// up its own; scalars without a value take the first entry, which stands for all.
 template <class T>
-int index_of(const T& count) {
+T look_up(const T& count, int size, auto&& entry) {
+  const auto index = [&](double x) { return std::clamp(static_cast<int>(std::lround(x)), 0, size - 1); };
   if constexpr (requires { value_of(count); }) {
-    return static_cast<int>(std::lround(value_of(count)));
+    return entry(index(value_of(count)));
+  } else if constexpr (requires { count.lane(0); }) {
+    T result;
+    for (int k = 0; k < T::width * T::parts; ++k) result.set_lane(k, entry(index(count.lane(k))).lane(k));
+    return result;
   } else {
-    return 0;
+    return entry(0);
   }
 }
 

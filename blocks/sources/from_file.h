@@ -26,14 +26,15 @@ struct FromFile : Block {
 
   void schedule(auto& v) const { v[kink] = select(v.on(waits), v[due], never); }
   void on_time(auto& v) const {
-    const int passed = rows_until(time_of(index_of(v[row])));
-    const Piece now = piece(passed);
-    v.next(row) = passed;
-    v.next(start) = now.start;
-    v.next(value) = now.value;
-    v.next(slope) = now.slope;
-    v.next(due) = time_of(passed);
-    v.next(waits) = passed < rows() ? 1.0 : 0.0;
+    const auto after_row = [&](auto&& entry) {
+      return look_up(v[row], rows(), [&](int k) { return v.number(entry(rows_until(data->times[k]))); });
+    };
+    v.next(row) = after_row([](int passed) { return passed; });
+    v.next(start) = after_row([&](int passed) { return piece(passed).start; });
+    v.next(value) = after_row([&](int passed) { return piece(passed).value; });
+    v.next(slope) = after_row([&](int passed) { return piece(passed).slope; });
+    v.next(due) = after_row([&](int passed) { return time_of(passed); });
+    v.next(waits) = after_row([&](int passed) { return passed < rows() ? 1.0 : 0.0; });
   }
   void outputs(auto& v) const { v[y] = v[value] + v[slope] * (v.time() - v[start]); }
 
@@ -51,7 +52,7 @@ struct FromFile : Block {
     return static_cast<int>(std::ranges::upper_bound(data->times, t) - data->times.begin());
   }
   /// Of row k, counted from 0; of the last one past the end.
-  double time_of(int k) const { return data->times[std::clamp(k, 0, rows() - 1)]; }
+  double time_of(int k) const { return data->times[std::min(k, rows() - 1)]; }
   double slope_between(int a, int b) const {
     const double width = data->times[b] - data->times[a];
     return width > 0.0 ? (data->values[b] - data->values[a]) / width : 0.0;

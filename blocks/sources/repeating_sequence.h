@@ -1,6 +1,4 @@
 #pragma once
-#include <algorithm>
-
 #include "blocks/block.h"
 
 namespace flyball {
@@ -34,13 +32,16 @@ struct RepeatingSequence : Block {
 
   void schedule(auto& v) const { v[kink] = v[due]; }
   void on_time(auto& v) const {
-    const int k = std::clamp(index_of(v[next]), 0, last - 1), following = k + 1 < last ? k + 1 : 0;
-    const auto period = following == 0 ? v[periods] + 1.0 : v[periods];
+    const auto at_next = [&](auto&& entry) { return look_up(v[next], last, entry); };
+    const auto following = [&](int k) { return k + 1 < last ? k + 1 : 0; };
+    const auto period = at_next([&](int k) { return following(k) == 0 ? v[periods] + 1.0 : v[periods]; });
+    const auto begins = at_next([&](int k) { return v.number(times[following(k)]); });
     v.next(start) = v[due];
-    v.next(value) = v.number(values[k]);
-    v.next(slope) = interpolates ? change(v, values, k) / change(v, times, k) : v[slope];
-    v.next(due) = v.number(times[following]) + period * (v.number(times[last]) - v.number(times[0]));
-    v.next(next) = static_cast<double>(following);
+    v.next(value) = at_next([&](int k) { return v.number(values[k]); });
+    v.next(slope) =
+        interpolates ? at_next([&](int k) { return change(v, values, k) / change(v, times, k); }) : v[slope];
+    v.next(due) = begins + period * (v.number(times[last]) - v.number(times[0]));
+    v.next(next) = at_next([&](int k) { return v.number(following(k)); });
     v.next(periods) = period;
   }
   void outputs(auto& v) const { v[y] = v[value] + v[slope] * (v.time() - v[start]); }
