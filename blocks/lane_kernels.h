@@ -9,7 +9,8 @@ namespace flyball {
 /// whose code must not run on a machine without it.
 template <class B, Isa isa>
 Kernels<Lanes<isa>> lane_kernels() {
-  if constexpr (kernel::differentiable<B>()) {
+  // A block that remembers has one memory, for one run.
+  if constexpr (kernel::differentiable<B>() && !kernel::OnStep<B, View<double, Phase::step>>) {
     return kernel::compile<B, Lanes<isa>>();
   } else {
     return {};

@@ -142,6 +142,7 @@ void ModelBlocks::bind(const BlockForm& form, const TomlEntry& entry, Instance& 
     auto binding = bind(slots[s], entry);
     if (binding) instance.parameters.emplace_back(s, *std::move(binding));
   }
+  check_order(form, entry, instance);
   instance.inputs.reserve(form.inputs.size());
   for (const int s : form.inputs) instance.inputs.emplace_back(s, Endpoint{});
 }
@@ -165,6 +166,23 @@ std::optional<Binding> ModelBlocks::bind(const SlotSpec& slot, const TomlEntry& 
   auto given = parameters_.bind(*value, slot.unit);
   if (given) check_range(slot, *given, *value);
   return given;
+}
+
+void ModelBlocks::check_order(const BlockForm& form, const TomlEntry& entry, const Instance& instance) {
+  const auto& slots = form.specification().slots;
+  const Binding* before = nullptr;
+  int slot_before = -1;
+  for (const auto& [s, binding] : instance.parameters) {
+    const TomlValue* list = entry.value.find(slots[s].setting);
+    if (slots[s].exceeds >= 0 && slots[s].exceeds == slot_before && list != nullptr) {
+      const double value = parameters_.value(binding), least = parameters_.value(*before);
+      if (!(value > least)) {
+        report_.error(*entry_of(*list, slots[s].entry), message::not_increasing(slots[s].name, value, least));
+      }
+    }
+    before = &binding;
+    slot_before = s;
+  }
 }
 
 void ModelBlocks::check_range(const SlotSpec& slot, const Binding& binding, const TomlValue& value) {

@@ -50,6 +50,7 @@ class ModelBlocks {
   void check_settings(const BlockForm& form, const TomlEntry& entry);
   void bind(const BlockForm& form, const TomlEntry& entry, Instance& instance);
   std::optional<Binding> bind(const SlotSpec& slot, const TomlEntry& entry);
+  void check_order(const BlockForm& form, const TomlEntry& entry, const Instance& instance);
   void check_range(const SlotSpec& slot, const Binding& binding, const TomlValue& value);
 
   ModelParameters& parameters_;
