@@ -281,6 +281,13 @@ Input Block::input_if(bool wanted, std::string name, std::string unit, std::stri
   return {};
 }
 
+Held Block::held_if(bool wanted, std::string name, double initial, std::string unit, std::string doc) {
+  if (wanted) return held(std::move(name), initial, std::move(unit), std::move(doc));
+  spec_.absent.push_back(
+      state_spec(SlotKind::held, std::move(name), initial, -1, std::move(unit), std::move(doc)));
+  return {};
+}
+
 Relation Block::relation_if(bool wanted, std::string name, std::string doc) {
   if (wanted) return relation(std::move(name), std::move(doc));
   spec_.absent.push_back(state_spec(SlotKind::relation, std::move(name), 0.0, -1, "any", std::move(doc)));

@@ -100,6 +100,7 @@ class Block {
   Param param_if(bool wanted, std::string name, double fallback, std::string unit, Range range,
                  std::string doc);
   Input input_if(bool wanted, std::string name, std::string unit, std::string doc);
+  Held held_if(bool wanted, std::string name, double initial, std::string unit, std::string doc);
   Relation relation_if(bool wanted, std::string name, std::string doc);
   Crossing crossing_if(bool wanted, std::string name, Direction direction, std::string doc);
 
@@ -133,11 +134,11 @@ class Block {
   /// Whole numbers from `least` to `most`.
   std::vector<int> counts(const std::string& key, const std::vector<int>& fallback, int least, int most,
                           std::string doc);
-  /// Parameters key[0], key[1], … (or key[0][1], …), one for each entry that is not a literal 0.
+  /// Parameters key[0], key[1], … (or key[0][1], …), one for each entry that is not a literal 0, or for all.
   Coefficients coefficients(const std::string& key, const std::vector<double>& fallback, std::string unit,
-                            std::string doc);
+                            std::string doc, Entries entries = Entries::not_zero);
   Coefficients matrix(const std::string& key, const std::vector<std::vector<double>>& fallback,
-                      std::string doc);
+                      std::string doc, Entries entries = Entries::not_zero);
   /// Text over `inputs`; other names are parameters of the model.
   std::shared_ptr<const Formula> formula(const std::string& key, const std::string& fallback_input,
                                          const std::vector<std::string>& inputs, std::string doc);

@@ -31,6 +31,7 @@
   BLOCK(continuous, TransferFcn)          \
   BLOCK(continuous, StateSpace)           \
   BLOCK(continuous, ZeroPole)             \
+  BLOCK(continuous, TransportDelay)       \
   BLOCK(discrete, UnitDelay)              \
   BLOCK(discrete, Delay)                  \
   BLOCK(discrete, ZeroOrderHold)          \
@@ -46,6 +47,8 @@
   BLOCK(nonlinear, Backlash)              \
   BLOCK(nonlinear, Quantizer)             \
   BLOCK(nonlinear, RateLimiter)           \
+  BLOCK(nonlinear, LookupTable1D)         \
+  BLOCK(nonlinear, LookupTable2D)         \
   BLOCK(nonlinear, Relay)                 \
   BLOCK(nonlinear, HitCrossing)           \
   BLOCK(routing, Switch)                  \

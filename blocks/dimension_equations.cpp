@@ -15,14 +15,19 @@ class DimensionRun {
         spec_(*object.specification),
         size_(static_cast<int>(spec_.slots.size())),
         values_(size_),
-        rates_(size_) {
+        rates_(size_),
+        memories_(size_) {
     for (int s = 0; s < size_; ++s) {
       index_.push_back(s);
       own_.push_back(s == 0 ? Dimensional(seconds, recorder_)
                             : Dimensional(BlockObject::slot_unknown(s), recorder_));
     }
     frame_.values = values_.data();
+    for (int s = 0; s < size_; ++s) {
+      if (spec_.slots[s].make_memory != nullptr) memories_[s] = spec_.slots[s].make_memory();
+    }
     frame_.rates = rates_.data();
+    frame_.memories = memories_.data();
   }
 
   std::vector<DimensionEquation> run() {
@@ -78,6 +83,7 @@ class DimensionRun {
   int size_;
   DimensionRecorder recorder_;
   std::vector<Dimensional> own_, values_, rates_, next_;
+  std::vector<std::any> memories_;
   std::vector<int> index_;
   Frame<Dimensional> frame_;
 };

@@ -54,7 +54,8 @@ struct Pose {
   H x, y, theta;
 };
 
-/// A row or table of coefficients, each a parameter; an entry written as the literal 0 is absent.
+/// A row or table of coefficients, each a parameter. Of a sparse one, an entry written as the literal 0 is
+/// absent.
 class Coefficients {
  public:
   struct Entry {

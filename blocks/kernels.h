@@ -22,6 +22,7 @@ struct Kernels {
   Sweep relations = nullptr;
   Sweep crossings = nullptr;
   Sweep schedule = nullptr;
+  Sweep on_step = nullptr;
   Handler on_sample = nullptr;
   Handler on_time = nullptr;
   CrossingHandler on_crossing = nullptr;
@@ -37,6 +38,8 @@ struct Kernels {
         return relations;
       case Phase::crossings:
         return crossings;
+      case Phase::step:
+        return on_step;
       default:
         return schedule;
     }
@@ -54,6 +57,8 @@ constexpr SlotKind result_of(Phase phase) {
       return SlotKind::relation;
     case Phase::crossings:
       return SlotKind::crossing;
+    case Phase::step:
+      return SlotKind::memory;
     default:
       return SlotKind::alarm;
   }
@@ -111,6 +116,10 @@ concept Schedule = requires(const B& b, V& v) {
   b.schedule(v);
 };
 template <class B, class V>
+concept OnStep = requires(const B& b, V& v) {
+  b.on_step(v);
+};
+template <class B, class V>
 concept OnSample = requires(const B& b, V& v) {
   b.on_sample(v);
 };
@@ -162,6 +171,12 @@ Kernels<T> compile() {
   }
   if constexpr (Schedule<B, View<T, Phase::schedule>>) {
     k.schedule = sweep<B, T, Phase::schedule, [](const B& b, auto& v) { b.schedule(v); }>;
+  }
+  // What is remembered has no derivative: a Jet run remembers through the shim.
+  if constexpr (std::same_as<T, double>) {
+    if constexpr (OnStep<B, View<T, Phase::step>>) {
+      k.on_step = sweep<B, T, Phase::step, [](const B& b, auto& v) { b.on_step(v); }>;
+    }
   }
   if constexpr (OnSample<B, View<T, Phase::sample>>) {
     k.on_sample = handle<B, T, Phase::sample, [](const B& b, auto& v) { b.on_sample(v); }>;

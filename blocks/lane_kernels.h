@@ -24,7 +24,8 @@ constexpr bool lockstep() {
 /// it in translation units of its own, whose code must not run on a machine without it.
 template <class B, Isa isa>
 Kernels<Lanes<isa>> lane_kernels() {
-  if constexpr (kernel::lockstep<B>()) {
+  // A block that remembers has one memory, for one run.
+  if constexpr (kernel::lockstep<B>() && !kernel::OnStep<B, View<double, Phase::step>>) {
     return kernel::compile<B, Lanes<isa>>();
   } else {
     return {};

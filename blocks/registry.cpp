@@ -47,6 +47,9 @@ void check_methods(const BlockType& type, const Specification& spec) {
     throw std::logic_error(
         fmt::format("block {}: has a method on_sample but declares no SampleTime", type.name));
   }
+  if (has.on_step != nullptr && !spec.may_have(SlotKind::memory)) {
+    throw std::logic_error(fmt::format("block {}: has a method on_step but declares no Memory", type.name));
+  }
   if (spec.count(SlotKind::alarm) > 1) {
     throw std::logic_error(fmt::format("block {}: declares more than one Alarm", type.name));
   }
@@ -81,11 +84,16 @@ class Deriver {
         size_(static_cast<int>(spec_.slots.size())),
         values_(size_),
         rates_(size_),
-        index_(size_) {
-    for (int s = 0; s < size_; ++s) index_[s] = s;
+        index_(size_),
+        memories_(size_) {
+    for (int s = 0; s < size_; ++s) {
+      index_[s] = s;
+      if (spec_.slots[s].make_memory != nullptr) memories_[s] = spec_.slots[s].make_memory();
+    }
     stand_for_themselves();
     frame_.values = values_.data();
     frame_.rates = rates_.data();
+    frame_.memories = memories_.data();
   }
 
   void run(BlockObject& result) {
@@ -140,6 +148,7 @@ class Deriver {
   int size_;
   std::vector<Dependency> values_, rates_;
   std::vector<int> index_;
+  std::vector<std::any> memories_;
   Frame<Dependency> frame_;
 };
 

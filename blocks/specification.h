@@ -37,6 +37,10 @@ enum class Direction { rising, falling, either };
 /// What it means for the run when a held value is no longer 0 after an instant.
 enum class RunEnd { none, normal, error };
 
+/// Which entries of a list or table of numbers become parameters: those that are not the literal 0, all, or
+/// all with each above the one before.
+enum class Entries { not_zero, all, increasing };
+
 enum class SlotKind {
   time,
   param,
@@ -63,6 +67,7 @@ struct SlotSpec {
   Range range;             // of a parameter
   std::string setting;     // key that gives a parameter's value; `entry` counts in row-major order
   int entry = -1;          // -1: the key's value is the parameter itself
+  int exceeds = -1;        // slot of the parameter that this one must be above
   std::string reference;   // parameter of the model that this one is bound to (a formula's free name)
   bool optional = false;   // an input that may stay unconnected
   bool fixed = false;      // a parameter that nothing may set: the sample time

@@ -134,7 +134,7 @@ Coefficients Block::declare_coefficients(const std::string& key, const Shape& sh
 }
 
 Coefficients Block::coefficients(const std::string& key, const std::vector<double>& fallback,
-                                 std::string unit, std::string doc) {
+                                 std::string unit, std::string doc, Entries entries) {
   spec_.structure.push_back({key, written(fallback), doc, {}});
   Shape shape = shape_of({fallback});
   if (given(key)) {
@@ -145,16 +145,22 @@ Coefficients Block::coefficients(const std::string& key, const std::vector<doubl
       refuse(key, "expected a list of numbers, found a list of lists");
     }
   }
-  return declare_coefficients(key, shape, fallback, true, std::move(unit), std::move(doc));
+  if (entries != Entries::not_zero) std::fill(shape.zero.begin(), shape.zero.end(), false);
+  Coefficients result = declare_coefficients(key, shape, fallback, true, std::move(unit), std::move(doc));
+  for (int k = 1; entries == Entries::increasing && k < result.columns(); ++k) {
+    spec_.slots[result.entries()[k].param.slot].exceeds = result.entries()[k - 1].param.slot;
+  }
+  return result;
 }
 
 Coefficients Block::matrix(const std::string& key, const std::vector<std::vector<double>>& fallback,
-                           std::string doc) {
+                           std::string doc, Entries entries) {
   std::vector<std::string> rows;
   for (const auto& row : fallback) rows.push_back(written(row));
   spec_.structure.push_back({key, fmt::format("[{}]", fmt::join(rows, ", ")), doc, {}});
   Shape shape = shape_of(fallback);
   if (given(key)) shape = settings_->shape(key).value_or(shape);
+  if (entries != Entries::not_zero) std::fill(shape.zero.begin(), shape.zero.end(), false);
   return declare_coefficients(key, shape, flat(fallback), false, "any", std::move(doc));
 }
 

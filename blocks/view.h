@@ -9,7 +9,7 @@
 namespace flyball {
 
 /// What a block is asked for. The phase is part of the view's type: what it forbids does not compile.
-enum class Phase { outputs, rates, relations, crossings, schedule, sample, crossing, time };
+enum class Phase { outputs, rates, relations, crossings, schedule, step, sample, crossing, time };
 
 inline constexpr bool is_handler(Phase phase) { return phase >= Phase::sample; }
 
@@ -99,7 +99,8 @@ class View {
     return *static_cast<const O*>(frame_.objects[index_[port.slot]].get());
   }
   template <class O>
-  O& operator[](Memory<O> memory) const requires(phase == Phase::outputs || is_handler(phase)) {
+  O& operator[](Memory<O> memory) const
+      requires(phase == Phase::outputs || phase == Phase::step || is_handler(phase)) {
     return *std::any_cast<O>(&frame_.memories[index_[memory.slot]]);
   }
 

@@ -63,6 +63,7 @@ class Binder {
       auto binding = bind(slots[s]);
       if (binding) instance.parameters.emplace_back(s, *std::move(binding));
     }
+    check_order(slots, instance);
   }
 
  private:
@@ -85,6 +86,23 @@ class Binder {
     auto given = expressions_.bind(*value, slot.unit);
     if (given) check_range(slot, *given, *value);
     return given;
+  }
+
+  /// Entries of a list that must rise.
+  void check_order(const std::vector<SlotSpec>& slots, const Instance& instance) const {
+    const Binding* before = nullptr;
+    int slot_before = -1;
+    for (const auto& [s, binding] : instance.parameters) {
+      const TomlValue* list = entry_.value.find(slots[s].setting);
+      if (slots[s].exceeds >= 0 && slots[s].exceeds == slot_before && list != nullptr) {
+        const double value = expressions_.value(binding), least = expressions_.value(*before);
+        if (!(value > least))
+          report_.error(*entry_of(*list, slots[s].entry),
+                        message::not_increasing(slots[s].name, value, least));
+      }
+      before = &binding;
+      slot_before = s;
+    }
   }
 
   void check_range(const SlotSpec& slot, const Binding& binding, const TomlValue& value) const {

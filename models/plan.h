@@ -168,6 +168,7 @@ struct Plan {
   Program logs;                // the cone of the logged signals
   Program crossings;           // just the crossings, after a sweep
   Program schedules;           // all alarms
+  Program steps;               // the cone of what blocks with on_step read, then these
   std::vector<int> externals;  // slots that `rates` reads and does not write, but for states and parameters
   std::vector<Chain> chains;   // of each algebraic loop, those that only bits close included
   std::vector<Loop> loops;     // of all programs

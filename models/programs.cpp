@@ -54,6 +54,7 @@ class ProgramWriter {
     plan_.crossings = assemble(calls_with(SlotKind::crossing, Phase::crossings));
     plan_.schedules = assemble(calls_with(SlotKind::alarm, Phase::schedule));
     plan_.logs = assemble(cone_calls(logs_cone));
+    plan_.steps = assemble(cone_calls(cone_of_steps()), step_calls());
     std::vector<bool> external(plan_.layout.size, false);
     mark_externals(plan_.rates, written_in(rates_cone), external);
     plan_.externals = slots_of(external);
@@ -289,6 +290,29 @@ class ProgramWriter {
       mark(cone, logged.source.instance, {logged.source.slot});
     }
     return cone;
+  }
+
+  bool remembers(int instance) const { return object(instance).type->kernels.on_double.on_step != nullptr; }
+
+  std::vector<bool> cone_of_steps() const {
+    std::vector<bool> cone(order_.nodes(), false);
+    for (int i = 0; i < instances(); ++i) {
+      if (!remembers(i)) continue;
+      std::vector<int> inputs;
+      for (int s = 0; s < static_cast<int>(object(i).specification->slots.size()); ++s) {
+        if (slot({i, s}).kind == SlotKind::input) inputs.push_back(s);
+      }
+      mark(cone, i, inputs);
+    }
+    return cone;
+  }
+
+  std::vector<Call> step_calls() const {
+    std::vector<Call> calls;
+    for (int place = 0; place < instances(); ++place) {
+      if (remembers(plan_.placed[place])) calls.push_back({last_level, Phase::step, place});
+    }
+    return calls;
   }
 
   std::vector<bool> written_in(const std::vector<bool>& cone) const {

@@ -51,7 +51,7 @@ void PlanSystem::jacobian(double t, const double* x, double* values) {
   lift(workspace_, jets_);
   const Sparsity& pattern = plan_.pattern;
   Jet* states = jets_.values.data() + plan_.layout.first_state;
-  const auto f = frame(plan_, jets_, jet_rates_.data());
+  const Frame<Jet> f = jet_frame();
   for (int first = 0; first < plan_.colouring.colours; first += Jet::DIMENSION) {
     const auto direction = [&](int c) { return plan_.colouring.colour[c] - first; };
     const auto seeded = [&](int c) { return direction(c) >= 0 && direction(c) < Jet::DIMENSION; };
@@ -73,11 +73,18 @@ void PlanSystem::jacobian(double t, const double* x, double* values) {
   }
 }
 
+/// Memories are not copied: minor steps only read them.
+Frame<Jet> PlanSystem::jet_frame() {
+  Frame<Jet> f = frame(plan_, jets_, jet_rates_.data());
+  f.memories = workspace_.memories.data();
+  return f;
+}
+
 const std::vector<double>& PlanSystem::zero_rates(const double* dx) {
   lift(workspace_, jets_);
   jets_.values[0].v[0] = 1.0;
   for (int k = 0; k < size(); ++k) jets_.values[plan_.layout.first_state + k].v[0] = dx[k];
-  run(plan_.zeros, plan_, frame(plan_, jets_));
+  run(plan_.zeros, plan_, jet_frame());
   for (std::size_t k = 0; k < zero_rates_.size(); ++k) {
     zero_rates_[k] = jets_.values[plan_.layout.first_relation + static_cast<int>(k)].v[0];
   }

@@ -39,6 +39,8 @@ class PlanSystem final : public System<double> {
   const std::vector<double>& zero_rates(const double* dx);
 
  private:
+  Frame<Jet> jet_frame();
+
   const Plan& plan_;
   Workspace<double>& workspace_;
   AffineProgram affine_;

@@ -25,6 +25,16 @@ void require_times(const std::vector<double>& times, double stop) {
     throw std::invalid_argument(fmt::format("times must be between 0 and the stop time {} s", stop));
 }
 
+/// What a block remembers along steps has no derivative.
+void require_no_past(const Plan& plan) {
+  for (const Op& op : plan.steps.ops) {
+    if (op.phase != Phase::step) continue;
+    const Instance& instance = plan.instance(plan.placed[op.place]);
+    throw std::invalid_argument(fmt::format("derivatives do not go through {}: a {} remembers numbers alone",
+                                            instance.name, op.object->type->name));
+  }
+}
+
 }  // namespace
 
 class Sensitivities::Run final : public InstantListener {
@@ -69,6 +79,7 @@ Sensitivities::Run::Run(std::shared_ptr<const Plan> plan, const SimulationSettin
                         SensitivityRequest request, const SensitivityOptions& options)
     : plan_(std::move(plan)), settings_(settings), request_(std::move(request)) {
   require_times(request_.times, settings.stop);
+  require_no_past(*plan_);
   for (const std::string& name : request_.parameters) {
     slots_.push_back(settable_parameter(*plan_, name));
     model_values_.push_back(std::ranges::find(plan_->literals, slots_.back(), &Start::slot)->value);

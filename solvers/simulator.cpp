@@ -106,6 +106,7 @@ bool Simulator::advance() {
   const bool evaluated = system_.rates_give_outputs() || !zeros_.none();
   if (evaluated && !outputs_are_finite(*plan_, workspace_))
     throw_first_bad({&plan_->rates, &plan_->zeros}, *plan_, workspace_);
+  if (!plan_->steps.ops.empty()) remember(end, located);
   const bool is_instant = located || end >= due;
   log_asked(end, !is_instant);
   double* x = workspace_.values.data() + plan_->layout.first_state;
@@ -147,6 +148,7 @@ void Simulator::instant(double t, double tick, bool located) {
   find_due(t, tick, located);
   if (located) watch_progress(t);
   const bool changed = instant_.run(due_);
+  flyball::run(plan_->steps, *plan_, frame(*plan_, workspace_));
   if (logs && affine_log_.applies() && workspace_.logs_map.stale)
     affine_log_.adopt(workspace_, workspace_.logs_map);
   time_ = t;
@@ -158,6 +160,24 @@ void Simulator::instant(double t, double tick, bool located) {
   }
   if (stage_ == Stage::running && t < settings_.stop) {
     stepper_->restart(t, workspace_.values.data() + plan_->layout.first_state, workspace_.step, changed);
+  }
+}
+
+/// Tells blocks that remember what they read along the step: a polynomial through these points has the order
+/// of the continuous extension.
+void Simulator::remember(double end, bool located) {
+  constexpr int pieces = 4;
+  double* x = workspace_.values.data() + plan_->layout.first_state;
+  for (int k = 1; k <= pieces; ++k) {
+    const bool at_end = k == pieces;
+    const double t = at_end ? end : time_ + (end - time_) * k / pieces;
+    if (at_end && !located) {
+      system_.place(t, stepper_->state());
+    } else {
+      stepper_->interpolate(t, x);
+      workspace_.values[0] = t;
+    }
+    flyball::run(plan_->steps, *plan_, frame(*plan_, workspace_));
   }
 }
 

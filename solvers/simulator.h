@@ -85,6 +85,7 @@ class Simulator {
   void check_alarms(double t) const;
   void find_end();
   void watch_progress(double t);
+  void remember(double end, bool located);
 
   void log_at(double t);
   bool log_as_polynomial(double last);

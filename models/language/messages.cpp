@@ -225,6 +225,9 @@ std::string cyclic_parameters(const Names& chain) {
 std::string out_of_range(Text name, double value, const Range& range, Text unit) {
   return format("{} is {}, expected {}", name, in_unit(value, unit), in_words(range, unit));
 }
+std::string not_increasing(Text name, double value, double before) {
+  return format("{} is {}, expected more than the number before it, {}", name, value, before);
+}
 std::string range_of_two(std::size_t found) {
   return format("expected a range of two numbers, [lower, upper], found {}", found);
 }

@@ -89,6 +89,7 @@ std::string not_whole(double value);
 std::string unknown_parameter(Text name, const Names& known);
 std::string cyclic_parameters(const Names& chain);
 std::string out_of_range(Text name, double value, const Range& range, Text unit);
+std::string not_increasing(Text name, double value, double before);
 std::string range_of_two(std::size_t found);
 std::string range_reversed(double lower, double upper);
 std::string range_uses_parameters();

@@ -41,6 +41,63 @@ TEST_CASE("PID weighs the setpoint in P by b and in D by c, and not in I") {
         10 * rounding);
 }
 
+TEST_CASE("PID in ideal form responds as Kp (1 + Ki/s + Kd N s/(s + N))") {
+  Device d("PID", {{"Kp", 2.0}, {"Ki", 3.0}, {"Kd", 0.5}, {"N", 20.0}, {"form", "ideal"s}});
+  const Complex s(0.3, 2.0), h = 2.0 * (1.0 + 3.0 / s + 0.5 * 20.0 * s / (s + 20.0));
+  CHECK(std::abs(response(d, {"integral", "filtered"}, "e", "u", s) - h) <= rounding * std::abs(h));
+}
+
+TEST_CASE("PID in series form responds as Kp (1 + Ki/s)(1 + Kd N s/(s + N))") {
+  Device d("PID", {{"Kp", 2.0}, {"Ki", 3.0}, {"Kd", 0.5}, {"N", 20.0}, {"form", "series"s}});
+  for (const Complex s : {Complex(0.0, 1.0), Complex(2.0, -5.0), Complex(0.1, 30.0)}) {
+    const Complex h = 2.0 * (1.0 + 3.0 / s) * (1.0 + 0.5 * 20.0 * s / (s + 20.0));
+    INFO("s = " << s);
+    CHECK(std::abs(response(d, {"integral", "filtered"}, "e", "u", s) - h) <= rounding * std::abs(h));
+  }
+}
+
+TEST_CASE("PID adds its feed-forward before the limits") {
+  Device d("PID", {{"Kp", 2.0}, {"feed_forward", true}, {"upper", 5.0}});
+  d["e"] = 1.0, d["u_ff"] = 2.5;
+  CHECK(d.update()["u"] == 4.5);
+  d["u_ff"] = 4.0;
+  CHECK(d.update()["u"] == 5.0);
+}
+
+TEST_CASE("PID with tracking lets I follow what the actuator makes of u") {
+  Device d("PID", {{"Kp", 2.0}, {"Ki", 3.0}, {"anti_windup", "tracking"s}, {"Tt", 0.5}});
+  d["e"] = 1.0, d["integral"] = 1.0, d["u_actual"] = 2.5;
+  d.update();
+  CHECK(d["u"] == 3.0);
+  CHECK(d.rate("integral") == 3.0 + (2.5 - 3.0) / 0.5);
+}
+
+TEST_CASE("PID goes from manual to automatic with the integral that makes no jump") {
+  Device d(
+      "PID",
+      {{"Kp", 2.0}, {"Ki", 3.0}, {"Kd", 0.25}, {"N", 4.0}, {"manual_mode", true}, {"feed_forward", true}});
+  d["e"] = 1.0, d["filtered"] = 0.5, d["integral"] = 7.0, d["u_ff"] = 1.0, d["u_manual"] = -3.0;
+  // At the start in automatic mode nothing is changed.
+  d["automatic"] = 1.0;
+  d.update();
+  d.handle(Phase::crossing, "to_automatic");
+  CHECK(d["integral"] == 7.0);
+  CHECK(d.update()["u"] == 2.0 + 7.0 + 0.5 + 1.0);
+  d["automatic"] = 0.0;
+  d.update();
+  CHECK(d["u"] == -3.0);
+  d.handle(Phase::crossing, "to_manual");
+  d.update();
+  CHECK(d["u"] == -3.0);
+  CHECK(d.rate("integral") == 0.0);
+  d["automatic"] = 1.0;
+  // Within the instant, too, before I is committed.
+  CHECK(d.update()["u"] == -3.0);
+  d.handle(Phase::crossing, "to_automatic");
+  CHECK(d.update()["u"] == -3.0);
+  CHECK(d.rate("integral") == 3.0);
+}
+
 TEST_CASE("PID limits its output, and without anti-windup integrates on") {
   Device d("PID", {{"Kp", 2.0}, {"Ki", 3.0}, {"lower", -4.0}, {"upper", 5.0}});
   d["e"] = 10.0;
@@ -176,6 +233,50 @@ TEST_CASE("DiscretePID with back calculation lets I follow the limited output") 
                            {"sample_time", Rational(1)}});
   d["e"] = 3.0;
   CHECK(d.hit("u") == 2.0);
+  // I = 3 + (1/2)(2 - 6)
+  CHECK(d["integral"] == 1.0);
+}
+
+TEST_CASE("DiscretePID in ideal and series form is the product that they are named for") {
+  // With the backward rule I and D are Ts z/(z - 1) and (z - 1)/(Ts z), so the product is that of two blocks
+  // in a row.
+  const double Kp = 2.0, Ki = 0.5, Kd = 0.25, Ts = 0.5;
+  Device ideal("DiscretePID",
+               {{"Kp", Kp}, {"Ki", Ki}, {"Kd", Kd}, {"form", "ideal"s}, {"sample_time", ratio(1, 2)}});
+  Device series("DiscretePID",
+                {{"Kp", Kp}, {"Ki", Ki}, {"Kd", Kd}, {"form", "series"s}, {"sample_time", ratio(1, 2)}});
+  double sum = 0.0, sum_of_lead = 0.0, last = 0.0;
+  for (const double e : {1.0, 3.0, -2.0, 4.0}) {
+    ideal["e"] = series["e"] = e;
+    const double difference = (e - last) / Ts, lead = e + Kd * difference;
+    sum += Ts * e, sum_of_lead += Ts * lead, last = e;
+    // Dyadic numbers of few digits: all sums are exact.
+    CHECK(ideal.hit("u") == Kp * (e + Ki * sum + Kd * difference));
+    CHECK(series.hit("u") == Kp * (lead + Ki * sum_of_lead));
+  }
+}
+
+TEST_CASE("DiscretePID goes on from the manual value") {
+  Device d("DiscretePID", {{"Kp", 2.0},
+                           {"Ki", 1.0},
+                           {"manual_mode", true},
+                           {"feed_forward", true},
+                           {"sample_time", ratio(1, 2)}});
+  d["e"] = 1.0, d["u_ff"] = 0.25, d["u_manual"] = -3.0;
+  CHECK(d.hit("u") == -3.0);
+  CHECK(d.hit("u") == -3.0);
+  d["automatic"] = 1.0;
+  // What has changed since the last hit is one step of integration.
+  CHECK(d.hit("u") == -3.0 + 0.5);
+  CHECK(d.hit("u") == -3.0 + 1.0);
+}
+
+TEST_CASE("DiscretePID with tracking lets I follow what the actuator makes of u") {
+  Device d(
+      "DiscretePID",
+      {{"Kp", 1.0}, {"Ki", 1.0}, {"anti_windup", "tracking"s}, {"Tt", 2.0}, {"sample_time", Rational(1)}});
+  d["e"] = 3.0, d["u_actual"] = 2.0;
+  CHECK(d.hit("u") == 6.0);
   // I = 3 + (1/2)(2 - 6)
   CHECK(d["integral"] == 1.0);
 }

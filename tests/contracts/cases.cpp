@@ -131,6 +131,17 @@ std::vector<Case> sampled_cases() {
   return all;
 }
 
+std::vector<Case> table_cases() {
+  std::vector<Case> all;
+  for (const char* type : {"LookupTable1D", "LookupTable2D"}) {
+    for (const char* method : {"nearest", "flat"})
+      all.push_back({type, method, {{"method", std::string(method)}}});
+    all.push_back({type, "clip", {{"extrapolation", "clip"s}}});
+  }
+  all.push_back({"LookupTable1D", "two", {{"breakpoints", Numbers{0.0, 2.0}}, {"table", Numbers{5.0, 0.0}}}});
+  return all;
+}
+
 std::vector<Case> controller_cases() {
   std::vector<Case> all;
   for (const char* type : {"PID", "DiscretePID"}) {
@@ -144,6 +155,18 @@ std::vector<Case> controller_cases() {
       }
     }
   }
+  for (const char* type : {"PID", "DiscretePID"}) {
+    Keys keys{{"manual_mode", true}, {"feed_forward", true}, {"anti_windup", "tracking"s}};
+    if (type == "DiscretePID"s) keys.insert({"sample_time", *Rational::fraction(1, 100)});
+    for (const char* form : {"parallel", "ideal", "series"}) {
+      keys.insert_or_assign("form", std::string(form));
+      all.push_back({type, form, keys});
+    }
+  }
+  all.push_back(
+      {"DiscretePID",
+       "series, filtered",
+       {{"sample_time", *Rational::fraction(1, 3)}, {"form", "series"s}, {"derivative", "filtered"s}}});
   for (const char* rule : {"forward", "trapezoidal"}) {
     all.push_back({"DiscretePID",
                    rule,
@@ -168,8 +191,8 @@ std::vector<Case> cases() {
   for (const BlockType& type : catalogue()) {
     all.push_back({type.name, "default", {}, {default_span(type.name)}});
   }
-  for (auto more :
-       {function_cases(), continuous_cases(), source_cases(), sampled_cases(), controller_cases()}) {
+  for (auto more : {function_cases(), continuous_cases(), source_cases(), sampled_cases(), table_cases(),
+                    controller_cases()}) {
     all.insert(all.end(), more.begin(), more.end());
   }
   return all;
@@ -206,6 +229,10 @@ void draw_all(Bench<double>& bench, const Domain& domain, Random& random) {
   for (std::size_t at = 0; at < bench.values.size(); ++at) {
     const SlotSpec& slot = bench.spec().slots[at % bench.size()];
     bench.values[at] = draw(slot, domain, random);
+    if (slot.exceeds >= 0) {
+      const std::size_t below = at - at % bench.size() + slot.exceeds;
+      bench.values[at] = bench.values[below] + random.uniform(0.2 * domain.span, domain.span);
+    }
     bench.bits[at] = random.word() % 2;
   }
 }

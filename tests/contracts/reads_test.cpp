@@ -48,7 +48,9 @@ void check(const Case& c, const BlockObject& object, const Result& result) {
     }
     const bool reads = std::ranges::binary_search(derived(object, result), s);
     INFO(c.type << " (" << c.label << "): " << name << " and " << slot.name);
-    CHECK(changed == reads);
+    // What a memory holds is not drawn, so what is read along with it may go unnoticed.
+    const bool unnoticed = reads && bench.spec().has(SlotKind::memory);
+    CHECK((changed == reads || unnoticed));
   }
 }
 

@@ -81,6 +81,10 @@ struct OnSampleWithoutSampleTime : Block, Text {
   using Block::Block;
   void on_sample(auto&) const {}
 };
+struct OnStepWithoutMemory : Block, Text {
+  using Block::Block;
+  void on_step(auto&) const {}
+};
 struct LatchedAlias : Block, Text {
   using Block::Block;
   SampleTime ts = sample_time();
@@ -146,6 +150,7 @@ TEST_CASE("a method needs its declaration") {
         "block Bad: has a method on_crossing(Crossing c, auto& v) const but declares no Crossing");
   CHECK(refusal<OnSampleWithoutSampleTime>() ==
         "block Bad: has a method on_sample but declares no SampleTime");
+  CHECK(refusal<OnStepWithoutMemory>() == "block Bad: has a method on_step but declares no Memory");
 }
 
 TEST_CASE("a result that no equation writes is refused by name") {

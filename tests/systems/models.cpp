@@ -74,6 +74,30 @@ TEST_CASE("Thermostat: the closed form of all switching times") {
   CHECK(switches.size() == 23);
 }
 
+TEST_CASE("Smith predictor: the step response without dead time, a dead time later") {
+  Run run(shipped("classic/smith_predictor"));
+  run.finish();
+  const SimulationSettings& settings = shipped("classic/smith_predictor").settings;
+  for (int k = 0; k <= 500; ++k) {
+    const double t = k / 100.0;
+    const double exact = t < 1.0 ? 0.0 : 1.0 - std::exp(-4.0 * (t - 1.0));
+    // The errors of some hundred steps, which the loop does not amplify.
+    CHECK(weighted(run.logged("process", t), exact, settings) < 100.0);
+  }
+}
+
+TEST_CASE("Valve: the controller takes over without a jump and fills the tank to the wanted level") {
+  Run run(shipped("classic/valve_takeover"));
+  run.finish();
+  const std::vector<double> t = run.times(), u = run.column("controller");
+  for (std::size_t k = 1; k < t.size() && t[k] <= 100.0; ++k) REQUIRE(std::fabs(u[k] - 0.6) < 1e-15);
+  CHECK(jumps(t, u).empty());
+  // A pole at -0.005 1/s has 1900 s: exp(-9.5) = 7e-5 of the error of 1 m.
+  CHECK(std::fabs(run["level.x"] - 2.0) < 1e-3);
+  // c f(x) = k h at h = 2 m: f = 0.4, on the line from (0.5, 0.15) to (0.8, 0.6).
+  CHECK(std::fabs(u.back() - (0.5 + 0.3 * 0.25 / 0.45)) < 1e-3);
+}
+
 TEST_CASE("Van der Pol: the published period of the limit cycle") {
   // After 40 s the start has been forgotten: deviations shrink by 1200 a turn.
   const double period = 6.6632868593231301896996820305;
