@@ -5,11 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 namespace flyball {
@@ -17,9 +16,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Calls again when a signal came in between.
+auto retried(auto&& call) {
+  auto result = call();
+  while (result < 0 && errno == EINTR) result = call();
+  return result;
+}
+
 class Descriptor {
  public:
-  explicit Descriptor(int fd) : fd_(fd) {}
+  Descriptor(const fs::path& file, int flags)
+      : fd_(retried([&] { return ::open(file.c_str(), flags | O_CLOEXEC, 0666); })) {}
   ~Descriptor() {
     if (fd_ >= 0) ::close(fd_);
   }
@@ -27,8 +34,11 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
 
   int get() const { return fd_; }
-  /// Some file systems report a full disk only here.
-  bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
+  bool sync() const {
+    return retried([&] { return ::fsync(fd_); }) == 0;
+  }
+  /// Some file systems report a full disk only here. After a signal the number is free, too.
+  bool close() { return ::close(std::exchange(fd_, -1)) == 0 || errno == EINTR; }
 
  private:
   int fd_;
@@ -36,21 +46,29 @@ class Descriptor {
 
 bool write_all(int fd, std::string_view content) {
   while (!content.empty()) {
-    const ssize_t written = ::write(fd, content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
+    const ssize_t written = retried([&] { return ::write(fd, content.data(), content.size()); });
     if (written < 0) return false;
     content.remove_prefix(static_cast<std::size_t>(written));
   }
   return true;
 }
 
-bool sync_folder(const fs::path& folder) {
-  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  // EINVAL: the file system has nothing to sync there.
-  return descriptor.get() >= 0 && (::fsync(descriptor.get()) == 0 || errno == EINVAL);
+/// 0, or the number of the error.
+int sync_folder(const fs::path& folder) {
+  const Descriptor descriptor(folder, O_RDONLY | O_DIRECTORY);
+  if (descriptor.get() >= 0 && descriptor.sync()) return 0;
+  const int error = errno;
+  // The file system has nothing to sync there.
+  return error == EINVAL ? 0 : error;
 }
 
 fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : "."; }
+
+fs::path name_beside(const fs::path& file) {
+  static std::atomic<unsigned> count = 0;
+  const std::string name = fmt::format(".{}.{}.{}.part", file.filename().string(), ::getpid(), count++);
+  return folder_of(file) / name;
+}
 
 /// The file behind a link, so that the link stays. A device or folder is not replaced by a file.
 fs::path destination(const fs::path& file) {
@@ -64,15 +82,7 @@ fs::path destination(const fs::path& file) {
   return target;
 }
 
-int create(const fs::path& part) {
-  return ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-}
-
-/// Removes what was begun, and throws.
-[[noreturn]] void give_up(const fs::path& part, const fs::path& file, int error_number) {
-  ::unlink(part.c_str());
-  throw OutputError(file, "cannot be written", error_number);
-}
+constexpr int create = O_WRONLY | O_CREAT | O_EXCL;
 
 void keep_mode(int fd, const fs::path& file) {
   struct stat old = {};
@@ -89,43 +99,44 @@ FileError::FileError(const fs::path& file, std::string_view what, int error_numb
                              : fmt::format("{}: {}: {}", file.string(), what, std::strerror(error_number))) {}
 
 std::string read_file(const fs::path& file) {
-  std::error_code error;
-  if (fs::is_directory(file, error)) throw FileError(file, "cannot be read", EISDIR);
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::string content{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.is_open() || stream.bad()) throw FileError(file, "cannot be read", errno);
+  const Descriptor descriptor(file, O_RDONLY);
+  if (descriptor.get() < 0) throw FileError(file, "cannot be read", errno);
+  std::string content;
+  std::size_t size = 0;
+  for (;;) {
+    content.resize(std::max<std::size_t>(2 * size, 1 << 16));
+    const ssize_t got =
+        retried([&] { return ::read(descriptor.get(), content.data() + size, content.size() - size); });
+    if (got < 0) throw FileError(file, "cannot be read", errno);
+    size += static_cast<std::size_t>(got);
+    if (got == 0) break;
+  }
+  content.resize(size);
   return content;
 }
 
-fs::path name_beside(const fs::path& file) {
-  static std::atomic<unsigned> count = 0;
-  const std::string name = fmt::format(".{}.{}.{}.part", file.filename().string(), ::getpid(), count++);
-  return folder_of(file) / name;
-}
+TemporaryFile::TemporaryFile(const fs::path& beside) : path_(name_beside(beside)) {}
+
+TemporaryFile::~TemporaryFile() { ::unlink(path_.c_str()); }
 
 void write_file(const fs::path& file, std::string_view content) {
   const fs::path target = destination(file);
-  const fs::path part = name_beside(target);
-  Descriptor descriptor(create(part));
+  const TemporaryFile part(target);
+  Descriptor descriptor(part.path(), create);
   if (descriptor.get() < 0) throw OutputError(file, "cannot be written", errno);
   keep_mode(descriptor.get(), target);
-  if (!write_all(descriptor.get(), content) || ::fsync(descriptor.get()) != 0 || !descriptor.close()) {
-    give_up(part, file, errno);
+  if (!write_all(descriptor.get(), content) || !descriptor.sync() || !descriptor.close() ||
+      retried([&] { return ::rename(part.path().c_str(), target.c_str()); }) != 0) {
+    throw OutputError(file, "cannot be written", errno);
   }
-  put_in_place(part, target);
+  const int error = sync_folder(folder_of(target));
+  if (error != 0) throw OutputError(file, "its folder cannot be synchronised", error);
 }
 
 void require_writable(const fs::path& file) {
-  const fs::path part = name_beside(destination(file));
-  const Descriptor descriptor(create(part));
+  const TemporaryFile part(destination(file));
+  const Descriptor descriptor(part.path(), create);
   if (descriptor.get() < 0) throw OutputError(file, "cannot be written", errno);
-  ::unlink(part.c_str());
-}
-
-void put_in_place(const fs::path& part, const fs::path& file) {
-  if (::rename(part.c_str(), file.c_str()) != 0) give_up(part, file, errno);
-  if (!sync_folder(folder_of(file))) throw OutputError(file, "its folder cannot be synchronised", errno);
 }
 
 }  // namespace flyball

@@ -28,10 +28,18 @@ void write_file(const std::filesystem::path& file, std::string_view content);
 /// Throws the OutputError that `write_file` would throw at its start, before a long run is spent on it.
 void require_writable(const std::filesystem::path& file);
 
-/// A name beside `file` that nobody else uses, for what is written before it takes its name.
-std::filesystem::path name_beside(const std::filesystem::path& file);
+/// A name beside a file that nobody else uses. What stands under it is removed in the end.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::filesystem::path& beside);
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-/// Gives `part`, written beside `file`, its name, for good. Throws OutputError and removes `part`.
-void put_in_place(const std::filesystem::path& part, const std::filesystem::path& file);
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 }  // namespace flyball

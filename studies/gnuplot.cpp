@@ -11,18 +11,16 @@ namespace flyball {
 namespace fs = std::filesystem;
 
 Drawing draw(const fs::path& script, const fs::path& figure, const std::string& format) {
-  const fs::path part = name_beside(figure);
+  const TemporaryFile part(figure);
   const std::string settings = fmt::format("format = {}; figure = {}", gnuplot_quoted(format),
-                                           gnuplot_quoted(part.filename().string()));
+                                           gnuplot_quoted(part.path().filename().string()));
   const fs::path folder = script.has_parent_path() ? script.parent_path() : ".";
   // "./": a script whose name begins with a dash is no option.
   const int status = run_process({"gnuplot", "-e", settings, "./" + script.filename().string()}, folder);
-  std::error_code error;
-  if (status == 0 && fs::file_size(part, error) > 0 && !error) {
-    put_in_place(part, figure);
+  if (status == 0) {
+    keep_drawing(part.path(), figure);
     return {true, {}};
   }
-  fs::remove(part, error);
   if (status == -1) {
     return {false,
             fmt::format("{}: not drawn: gnuplot is not installed (Debian: apt-get install gnuplot-nox); "

@@ -251,19 +251,16 @@ std::string order_table(const Plan& plan) {
 }
 
 Drawing draw_graph(const std::string& graph, const fs::path& figure, const std::string& format) {
-  const fs::path source = name_beside(figure), part = name_beside(figure);
-  write_file(source, graph);
+  const TemporaryFile source(figure), part(figure);
+  write_file(source.path(), graph);
   const fs::path folder = figure.has_parent_path() ? figure.parent_path() : ".";
-  const int status = run_process(
-      {"dot", "-T" + format, "-o", "./" + part.filename().string(), "./" + source.filename().string()},
-      folder);
-  std::error_code error;
-  fs::remove(source, error);
-  if (status == 0 && fs::file_size(part, error) > 0 && !error) {
-    put_in_place(part, figure);
+  const int status = run_process({"dot", "-T" + format, "-o", "./" + part.path().filename().string(),
+                                  "./" + source.path().filename().string()},
+                                 folder);
+  if (status == 0) {
+    keep_drawing(part.path(), figure);
     return {true, {}};
   }
-  fs::remove(part, error);
   const std::string why = status == -1 ? "Graphviz is not installed (Debian: apt-get install graphviz)"
                                        : fmt::format("Graphviz' dot ended with status {}", status);
   return {false, fmt::format("{}: not drawn: {}", figure.string(), why)};

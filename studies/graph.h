@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "models/plan.h"
-#include "studies/gnuplot.h"
+#include "studies/drawing.h"
 
 namespace flyball {
 
@@ -27,6 +27,7 @@ std::string order_table(const Plan& plan);
 std::string rate_name(const Plan& plan, int instance);
 
 /// Draws a graph with Graphviz and puts the figure in place whole or not at all; `format` is "svg" or "png".
+/// Throws OutputError.
 Drawing draw_graph(const std::string& graph, const std::filesystem::path& figure, const std::string& format);
 
 }  // namespace flyball

@@ -1,5 +1,7 @@
 #include "studies/metadata.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "blocks/hash.h"
@@ -60,6 +62,29 @@ Json last_row_of(const Log& log) {
   return row;
 }
 
+constexpr std::string_view seal_begin = ",\n  \"metadata_checksum\": \"";
+
+/// The end of a sidecar: the checksum of all that stands before it.
+std::string seal_of(std::string_view text) {
+  return fmt::format("{}{}\"\n}}\n", seal_begin, fingerprint(text));
+}
+
+/// Throws MetadataError unless the end of the text is the seal of what stands before it.
+void require_seal(std::string_view json) {
+  const std::size_t end = json.rfind(seal_begin);
+  if (end == std::string_view::npos)
+    throw MetadataError("truncated, or not the metadata of a result: there is no \"metadata_checksum\"");
+  const std::string seal = seal_of(json.substr(0, end));
+  if (json.substr(end) == seal) return;
+  const auto checksum = [](std::string_view text) {
+    text.remove_prefix(std::min(seal_begin.size(), text.size()));
+    return text.substr(0, text.find('"'));
+  };
+  throw MetadataError(
+      fmt::format("changed or truncated: its text has the checksum {}, \"metadata_checksum\" is {}",
+                  checksum(seal), checksum(json.substr(end))));
+}
+
 }  // namespace
 
 std::string model_fingerprint(std::string_view model_text, const Diagram& diagram) {
@@ -86,7 +111,24 @@ std::string metadata_json(const RunResult& result, const RunInputs& inputs, std:
   for (const Version& library : library_versions()) json["libraries"][library.name] = library.number;
   if (!csv.empty()) json["csv"] = {{"file", csv_name}, {"checksum", fingerprint(csv)}};
   // A path need not be UTF-8, JSON must be.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+  if (csv.empty()) return text + '\n';
+  text.resize(text.size() - std::string_view("\n}").size());
+  return text + seal_of(text);
+}
+
+CsvMetadata read_csv_metadata(std::string_view json) {
+  require_seal(json);
+  try {
+    const Json parsed = Json::parse(json);
+    CsvMetadata metadata{
+        parsed.at("rows").get<std::size_t>(), {}, parsed.at("csv").at("checksum").get<std::string>()};
+    for (const Json& column : parsed.at("columns"))
+      metadata.columns.push_back(column.at("name").get<std::string>());
+    return metadata;
+  } catch (const Json::exception&) {
+    throw MetadataError("not the metadata of a result");
+  }
 }
 
 }  // namespace flyball

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,8 +23,25 @@ std::string model_fingerprint(std::string_view model_text, const Diagram& diagra
 /// The sidecar of a result, as JSON text: model (with a hash of its text and of the files that it uses),
 /// columns with units, solver with its tolerances and statistics, status, versions, and, where `csv` is
 /// given, the file's name and checksum. An unknown unit is empty. Nothing in it depends on the machine's
-/// speed: equal runs give equal bytes.
+/// speed: equal runs give equal bytes. Where `csv` is given, the last key is the checksum of all the text
+/// before it.
 std::string metadata_json(const RunResult& result, const RunInputs& inputs, std::string_view csv_name = {},
                           std::string_view csv = {});
+
+/// What the sidecar says about its CSV file.
+struct CsvMetadata {
+  std::size_t rows = 0;
+  std::vector<std::string> columns;
+  std::string checksum;
+};
+
+/// A sidecar that is not what was written.
+class MetadataError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Reads the text of `metadata_json`. Throws MetadataError when a byte of it has changed.
+CsvMetadata read_csv_metadata(std::string_view json);
 
 }  // namespace flyball

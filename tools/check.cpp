@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 
 #include "models/dimensions.h"
 #include "studies/file.h"
+#include "studies/result_check.h"
 #include "tools/commands.h"
 #include "tools/console.h"
 #include "tools/json.h"
@@ -53,34 +55,59 @@ std::string unit_lines(const DimensionTable& table) {
   return lines;
 }
 
-}  // namespace
-
-int check_command(const CheckOptions& options) {
+/// What was checked, and what was found.
+struct Findings {
   std::vector<ModelFile> models;
+  std::vector<ResultCheck> results;
   std::string lines;
   std::size_t errors = 0;
   bool unreadable = false;
-  for (const std::string& name : options.models) {
-    try {
-      models.push_back(load_model(name, options.overrides));
-    } catch (const FileError& error) {
-      complain(fmt::format("error: {}\n", error.what()));
-      unreadable = true;
-      ++errors;
-      continue;
-    }
-    ModelFile& model = models.back();
-    if (model.plan) add_notes(model);
-    complain(listing(model));
-    errors += static_cast<std::size_t>(model.errors);
-    if (!model.plan) continue;
-    lines += fmt::format("{}: ok: {}\n", name, counts(*model.plan));
-    if (options.units) lines += unit_lines(dimension_table(*model.plan->diagram));
+};
+
+void check_model(const std::string& name, const CheckOptions& options, Findings& findings) {
+  ModelFile model = load_model(name, options.overrides);
+  if (model.plan) add_notes(model);
+  complain(listing(model.diagnostics));
+  findings.errors += static_cast<std::size_t>(model.errors);
+  if (model.plan) {
+    findings.lines += fmt::format("{}: ok: {}\n", name, counts(*model.plan));
+    if (options.units) findings.lines += unit_lines(dimension_table(*model.plan->diagram));
   }
-  print(options.json ? check_json(models, options.units) : lines);
-  if (errors > 0) complain(counted(errors, "error") + '\n');
-  if (unreadable) return exit_input_output;
-  return errors > 0 ? exit_model_error : exit_done;
+  findings.models.push_back(std::move(model));
+}
+
+void check_result_file(const std::string& name, Findings& findings) {
+  ResultCheck result = check_result(std::filesystem::path(name));
+  complain(listing(result.diagnostics));
+  findings.errors += result.diagnostics.size();
+  if (result.ok()) {
+    findings.lines +=
+        fmt::format("{}: ok: {}, {}\n", name, counted(result.rows, "row"), counted(result.columns, "column"));
+  }
+  findings.results.push_back(std::move(result));
+}
+
+void check_file(const std::string& name, const CheckOptions& options, Findings& findings) try {
+  if (std::filesystem::path(name).extension() == ".csv") {
+    check_result_file(name, findings);
+  } else {
+    check_model(name, options, findings);
+  }
+} catch (const FileError& error) {
+  complain(fmt::format("error: {}\n", error.what()));
+  findings.unreadable = true;
+  ++findings.errors;
+}
+
+}  // namespace
+
+int check_command(const CheckOptions& options) {
+  Findings findings;
+  for (const std::string& name : options.files) check_file(name, options, findings);
+  print(options.json ? check_json(findings.models, options.units, findings.results) : findings.lines);
+  if (findings.errors > 0) complain(counted(findings.errors, "error") + '\n');
+  if (findings.unreadable) return exit_input_output;
+  return findings.errors > 0 ? exit_model_error : exit_done;
 }
 
 }  // namespace flyball

@@ -113,12 +113,19 @@ CLI::App* add_run(CLI::App& app, RunOptions& options) {
 }
 
 CLI::App* add_check(CLI::App& app, CheckOptions& options) {
-  CLI::App* command = app.add_subcommand("check", "Check models and list all that is wrong with them");
-  command->add_option("MODEL", options.models, "Model files")->required()->type_name("FILE");
+  CLI::App* command =
+      app.add_subcommand("check", "Check models and results, and list all that is wrong with them");
+  command
+      ->add_option("FILE", options.files,
+                   "Model files; a .csv file is compared with what the .json beside it says of it")
+      ->required()
+      ->type_name("FILE");
   add_overrides(command, options.overrides);
   command->add_flag("--units", options.units, "Print the unit of every signal and parameter");
   command->add_flag("--json", options.json, "Print the findings as JSON");
-  command->footer("Example:\n  flyball check models/*/*.toml\n  flyball check --units models/classic/pid_servo.toml");
+  command->footer(
+      "Example:\n  flyball check models/*/*.toml\n  flyball check --units models/classic/pid_servo.toml\n  "
+      "flyball check result.csv");
   return command;
 }
 

@@ -33,7 +33,7 @@ struct RunOptions {
 };
 
 struct CheckOptions {
-  std::vector<std::string> models;
+  std::vector<std::string> files;  // models, and results where the name ends in .csv
   std::vector<Override> overrides;
   bool units = false;
   bool json = false;

@@ -43,12 +43,12 @@ std::string listing(const std::vector<Difference>& differences) {
 
 int diff_command(const DiffOptions& options) {
   const ModelFile before = load_model(options.before, {}), after = load_model(options.after, {});
-  complain(listing(before));
-  complain(listing(after));
+  complain(listing(before.diagnostics));
+  complain(listing(after.diagnostics));
   if (!before.plan || !after.plan) return exit_model_error;
   const TomlDocument a = parsed(before), b = parsed(after);
   const auto differences = compare({a.root(), *before.plan->diagram}, {b.root(), *after.plan->diagram});
-  print(options.json ? diff_json(differences) : listing(differences));
+  print(options.json ? diff_json(differences) : listing(differences.diagnostics));
   return differences.empty() ? exit_done : exit_requirement_failed;
 }
 

@@ -28,7 +28,7 @@ int write_graph(const std::string& graph, const fs::path& figure) {
 
 int graph_command(const GraphOptions& options) {
   const ModelFile model = load_model(options.model, options.overrides);
-  complain(listing(model));
+  complain(listing(model.diagnostics));
   if (!model.plan) {
     if (options.json) print(check_json({model}));
     return exit_model_error;

@@ -36,6 +36,20 @@ Json diagnostic_json(const Diagnostic& d) {
           {"message", d.message}};
 }
 
+Json diagnostics_json(const std::vector<Diagnostic>& diagnostics) {
+  Json json = Json::array();
+  for (const Diagnostic& d : diagnostics) json.push_back(diagnostic_json(d));
+  return json;
+}
+
+Json result_json(const ResultCheck& result) {
+  return {{"file", result.file},
+          {"ok", result.ok()},
+          {"rows", result.rows},
+          {"columns", result.columns},
+          {"diagnostics", diagnostics_json(result.diagnostics)}};
+}
+
 /// A unit that the model does not determine is null.
 Json units_json(const std::vector<NamedUnit>& units) {
   Json json = Json::array();
@@ -54,16 +68,12 @@ Json model_json(const ModelFile& model, bool units) {
     json["rates"] = plan.hit_rates.size();
     json["crossings"] = plan.crossing_records.size() + plan.located_relations.size();
   }
-  json["diagnostics"] = Json::array();
-  for (const Diagnostic& d : model.diagnostics) {
-    json["diagnostics"].push_back(diagnostic_json(d));
-  }
+  json["diagnostics"] = diagnostics_json(model.diagnostics);
   if (!units || !model.plan) return json;
   const DimensionTable table = dimension_table(*model.plan->diagram);
   json["signals"] = units_json(table.signals);
   json["parameters"] = units_json(table.parameters);
-  json["notes"] = Json::array();
-  for (const Diagnostic& note : table.notes) json["notes"].push_back(diagnostic_json(note));
+  json["notes"] = diagnostics_json(table.notes);
   return json;
 }
 
@@ -121,9 +131,11 @@ Json block_json(const BlockType& type) {
 
 }  // namespace
 
-std::string check_json(const std::vector<ModelFile>& models, bool units) {
+std::string check_json(const std::vector<ModelFile>& models, bool units,
+                       const std::vector<ResultCheck>& results) {
   Json json = {{"models", Json::array()}};
   for (const ModelFile& model : models) json["models"].push_back(model_json(model, units));
+  for (const ResultCheck& result : results) json["results"].push_back(result_json(result));
   return text_of(json);
 }
 

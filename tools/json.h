@@ -5,13 +5,16 @@
 
 #include "blocks/registry.h"
 #include "models/difference.h"
+#include "studies/result_check.h"
 #include "tools/model_file.h"
 
 namespace flyball {
 
 /// {"models": [{"file", "ok", "blocks", "states", "rates", "crossings", "diagnostics": […]}]}; with
-/// `units` also the signals and parameters with their units, and notes.
-std::string check_json(const std::vector<ModelFile>& models, bool units = false);
+/// `units` also the signals and parameters with their units, and notes. Where results were checked, too,
+/// "results": [{"file", "ok", "rows", "columns", "diagnostics"}].
+std::string check_json(const std::vector<ModelFile>& models, bool units = false,
+                       const std::vector<ResultCheck>& results = {});
 
 /// {"differences": [{"kind", "section", "name", "before", "after"}]}
 std::string diff_json(const std::vector<Difference>& differences);

@@ -17,9 +17,9 @@ ModelFile load_model(const std::string& file, const std::vector<Override>& overr
   return model;
 }
 
-std::string listing(const ModelFile& model) {
+std::string listing(const std::vector<Diagnostic>& diagnostics) {
   std::string lines;
-  for (const Diagnostic& diagnostic : model.diagnostics) lines += to_string(diagnostic) + '\n';
+  for (const Diagnostic& diagnostic : diagnostics) lines += to_string(diagnostic) + '\n';
   return lines;
 }
 

@@ -20,7 +20,7 @@ struct ModelFile {
 /// Throws FileError when the file cannot be read.
 ModelFile load_model(const std::string& file, const std::vector<Override>& overrides);
 
-/// The diagnostics, a line each.
-std::string listing(const ModelFile& model);
+/// A line each.
+std::string listing(const std::vector<Diagnostic>& diagnostics);
 
 }  // namespace flyball

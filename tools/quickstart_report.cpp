@@ -32,7 +32,7 @@ Case run_case(const std::string& model_name, const std::string& gain, const std:
               const fs::path& folder) {
   const std::vector<Override> overrides{{"K_gamma", gain}};
   const ModelFile model = load_model(model_name, overrides);
-  complain(listing(model));
+  complain(listing(model.diagnostics));
   if (!model.plan) throw std::runtime_error("the model has errors");
   SimulationSettings settings = model.plan->diagram->simulation;
   settings.stop = arc_horizon;

@@ -38,7 +38,8 @@ void require_method_that_fits(const Plan& plan, const SimulationSettings& settin
 }
 
 int status_of(const RunResult& result) {
-  if (result.status == RunStatus::interrupted) return 128 + InterruptWatch::signal_number();
+  // A signal that came while the results were written counts, too.
+  if (InterruptWatch::signal_number() != 0) return 128 + InterruptWatch::signal_number();
   return result.status == RunStatus::stopped ? exit_numerical_failure : exit_done;
 }
 
@@ -75,7 +76,7 @@ RunResult watched_run(const ModelFile& model, const RunOptions& options) {
 
 int run_command(const RunOptions& options) {
   const ModelFile model = load_model(options.model, options.overrides);
-  complain(listing(model));
+  complain(listing(model.diagnostics));
   if (!model.plan) {
     if (options.json) print(check_json({model}));
     return exit_model_error;
@@ -84,12 +85,13 @@ int run_command(const RunOptions& options) {
 
   const InterruptWatch watch;
   const RunResult result = watched_run(model, options);
+  // Before the files: they may fail as well.
+  if (result.status == RunStatus::stopped)
+    complain(fmt::format("{}: error: {}\n", model.name, result.reason));
   const RunInputs inputs{model.name, model.text, options.overrides};
   ResultFiles written;
   if (!options.output.empty()) written = write_result(result, inputs, options.output);
   for (const std::string& warning : written.warnings) complain(fmt::format("warning: {}\n", warning));
-  if (result.status == RunStatus::stopped)
-    complain(fmt::format("{}: error: {}\n", model.name, result.reason));
   if (options.json) {
     const auto sidecar = std::filesystem::path(options.output).replace_extension("json");
     const std::string text = written.files.empty() ? metadata_json(result, inputs) : read_file(sidecar);

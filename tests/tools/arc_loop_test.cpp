@@ -41,7 +41,7 @@ struct ArcRun {
 ArcRun run(const std::string& gain) {
   const ModelFile model =
       load_model(source_dir() + "/models/line_arc/arc_error_loop.toml", {{"K_gamma", gain}});
-  INFO(listing(model));
+  INFO(listing(model.diagnostics));
   REQUIRE(model.plan);
   SimulationSettings settings = model.plan->diagram->simulation;
   settings.stop = arc_horizon;

@@ -54,6 +54,33 @@ says err "error: K_H is in 1/s, but the diagram needs it in 1/m"
 expect 0 check --help
 says out "Example:"
 
+# Results are compared with their metadata.
+expect 0 run "$arc" --quiet --output "a result.csv" --stop 1
+expect 0 check "a result.csv" "$arc"
+says out "a result.csv: ok: 1001 rows, 3 columns"
+says out "arc_error_loop.toml: ok"
+is_empty err
+expect 0 check "a result.csv" --json
+says out '"rows": 1001'
+cp "a result.json" cut.json
+head -n 11 "a result.csv" >cut.csv
+expect 3 check cut.csv
+says err "cut.csv: error: changed or truncated: expected the checksum fnv1a64:"
+says err "cut.csv:12:1: error: the file ends after 10 of 1001 rows"
+says err "2 errors"
+is_empty out
+expect 3 check cut.csv --json
+says out '"ok": false'
+says out '"line": 12'
+sed -i 's/"finished"/"stopped"/' cut.json
+expect 3 check cut.csv
+says err "cut.json: error: changed or truncated: its text has the checksum fnv1a64:"
+rm cut.json
+expect 5 check cut.csv
+says err "error: cut.json: cannot be read: No such file or directory"
+expect 5 check missing.csv
+says err "error: missing.csv: cannot be read: No such file or directory"
+
 expect 0 blocks
 says out "PID"
 says out "control"

@@ -17,6 +17,7 @@ interrupted() {
   says "$signal.json" '"status": "interrupted"'
   says "$signal.csv" "time,H,gamma"
   says out "interrupted at t = "
+  expect 0 check "$signal.csv"
   nothing_half_written
 }
 interrupted INT 130

@@ -45,6 +45,7 @@ says err "root.toml: error: "
 says err "root.y"
 says root.csv "0.875,"
 says root.json '"status": "stopped"'
+expect 0 check root.csv
 nothing_half_written
 
 # 5: input and output
