@@ -310,7 +310,7 @@ class ProgramWriter {
   std::vector<Call> step_calls() const {
     std::vector<Call> calls;
     for (int place = 0; place < instances(); ++place) {
-      if (remembers(plan_.placed[place])) calls.push_back({last_level, Phase::step, place});
+      if (remembers(plan_.placed[place])) calls.push_back({last_level, 0, Phase::step, place});
     }
     return calls;
   }

@@ -56,7 +56,8 @@ class Mutator {
   explicit Mutator(unsigned seed) : random_(seed) {}
 
   std::string mutate(std::string text) {
-    switch (below(6)) {
+    const std::size_t at = text.empty() ? 0 : static_cast<std::size_t>(below(text.size()));
+    switch (below(11)) {
       case 0:
         return edit_lines(text, [&](auto& lines) { lines.erase(lines.begin() + below(lines.size())); });
       case 1:
@@ -73,6 +74,16 @@ class Mutator {
       case 4:
         text[below(text.size())] = "\"'[]{}=.,()->+*/^#\n0eE "[below(24)];
         return text;
+      case 5:
+        return text.insert(at, 1, '\0');
+      case 6:
+        return text.insert(at, "\xEF\xBB\xBF");
+      case 7:
+        return text.insert(at, "\r\n");
+      case 8:
+        return text.insert(at, std::string(static_cast<std::size_t>(below(200)), "[{("[below(3)]));
+      case 9:  // another type of value
+        return text.insert(std::min(text.find("= ", at), text.size()), "= [1, \"two\", { x = true }] #");
       default:
         return text.substr(0, below(text.size()));
     }
@@ -110,7 +121,7 @@ TEST_CASE("the text that is mutated is a valid model") {
 
 TEST_CASE("mutations of a model give a diagram or positioned errors") {
   int refused = 0;
-  for (unsigned seed = 0; seed < 2000; ++seed) {
+  for (unsigned seed = 0; seed < 5000; ++seed) {
     Mutator mutator(seed);
     std::string text = mutator.mutate(valid);
     // Every other text gets a second mutation, so that mistakes meet.
@@ -127,5 +138,5 @@ TEST_CASE("mutations of a model give a diagram or positioned errors") {
     if (!diagram) ++refused;
   }
   // Most mutations break something; else the mutator or the reader does not do its work.
-  CHECK(refused > 1000);
+  CHECK(refused > 2500);
 }

@@ -158,11 +158,11 @@ TEST_CASE("The kinks of a table cost no accuracy: the order through them is that
   // method of second order.
   for (const std::string table : {"LookupTable1D", "LookupTable2D"}) {
     const std::string second = table == "LookupTable2D" ? "2" : "";
-    Run run(R"toml(
+    Run run(std::string(R"toml(
 flyball = 1
 [blocks]
 time = { type = "Clock" }
-)toml" +
+)toml") +
             (second.empty() ? R"toml(
 f = { type = "LookupTable1D", breakpoints = [0.0, 0.37, 1.21, 2.03, 3.0], table = [0.0, 1.0, -1.0, 2.0, 0.0] })toml"
                             : R"toml(
