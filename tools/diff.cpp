@@ -48,7 +48,7 @@ int diff_command(const DiffOptions& options) {
   if (!before.plan || !after.plan) return exit_model_error;
   const TomlDocument a = parsed(before), b = parsed(after);
   const auto differences = compare({a.root(), *before.plan->diagram}, {b.root(), *after.plan->diagram});
-  print(options.json ? diff_json(differences) : listing(differences.diagnostics));
+  print(options.json ? diff_json(differences) : listing(differences));
   return differences.empty() ? exit_done : exit_requirement_failed;
 }
 
