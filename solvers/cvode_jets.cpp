@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "blocks/jet.h"
 #include "solvers/newton_matrix.h"
 #include "solvers/reach.h"
 #include "solvers/step_failure.h"

@@ -15,9 +15,9 @@ class Group {
 
   const Specification& spec() const { return together_.spec(); }
 
-  void draw(double span, Random& random) {
+  void draw(const Domain& domain, Random& random) {
     for (int k = 0; k < lane_count; ++k) {
-      draw_all(alone_[k], span, random);
+      draw_all(alone_[k], domain, random);
       for (int s = 0; s < together_.size(); ++s) {
         together_.values[s].set_lane(k, alone_[k].values[s]);
         together_.bits[s] = static_cast<unsigned char>((together_.bits[s] & ~(1 << k)) |
@@ -49,7 +49,7 @@ void check(const Case& c) {
   Random random(17);
   for (const Result& result : results(group.spec(), true)) {
     for (int point = 0; point < 20; ++point) {
-      group.draw(c.span, random);
+      group.draw(c.domain, random);
       INFO(c.type << " (" << c.label << "): " << result.name(group.spec()) << ", lane of difference");
       REQUIRE(group.first_difference(result) == -1);
     }
