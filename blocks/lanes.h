@@ -135,6 +135,10 @@ class alignas(8 * lane_count) Lanes {
   friend Lanes log10(const Lanes& x) {
     return map(x, [](double a) { return std::log10(a); });
   }
+  /// A function of two numbers, lane by lane.
+  friend Lanes each(const Lanes& a, const Lanes& b, double (*function)(double, double)) {
+    return map(a, b, function);
+  }
   friend Lanes floor(const Lanes& x) {
     return map(x, [](double a) { return std::floor(a); });
   }

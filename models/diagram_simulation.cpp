@@ -19,7 +19,8 @@ class SimulationReader {
       : states_(states), parameters_(parameters), report_(report) {}
 
   SimulationSettings read(const TomlValue& section) {
-    report_.check_keys(section, "[simulation]", {"stop", "solver", "log_interval", "algebraic_loops", "seed"});
+    report_.check_keys(section, "[simulation]",
+                       {"stop", "solver", "log_interval", "algebraic_loops", "seed"});
     settings_.stop = above_zero(section, "stop", "s").value_or(settings_.stop);
     if (const TomlValue* seed = section.find("seed")) read_seed(*seed);
     if (const TomlValue* solver = section.find("solver")) read_solver(*solver);

@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "models/port_element.h"
+
 namespace flyball {
 namespace {
 
@@ -168,9 +170,9 @@ class Comparison {
 
   using Names = std::vector<std::string>;
 
-  static std::string end(const Diagram& diagram, int instance, int slot) {
+  static std::string end(const Diagram& diagram, bool is_input, int instance, int slot) {
     const Instance& of = diagram.instances[instance];
-    return of.name + '.' + of.object->specification->slots[slot].name;
+    return of.name + '.' + port_element(*of.object->specification, is_input, slot);
   }
 
   static Names wires(const Diagram& diagram) {
@@ -178,7 +180,8 @@ class Comparison {
     for (int to = 0; to < static_cast<int>(diagram.instances.size()); ++to) {
       for (const auto& [slot, from] : diagram.instances[to].inputs) {
         if (!from.connected()) continue;
-        result.push_back(end(diagram, from.instance, from.slot) + " -> " + end(diagram, to, slot));
+        result.push_back(end(diagram, false, from.instance, from.slot) + " -> " +
+                         end(diagram, true, to, slot));
       }
     }
     return result;

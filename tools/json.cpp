@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "models/dimensions.h"
+#include "models/port_element.h"
 #include "studies/graph.h"
 
 namespace flyball {
@@ -172,14 +173,14 @@ std::string graph_json(const Plan& plan) {
                               {"family", type.family},
                               {"rate", rate_name(plan, static_cast<int>(i))}});
   }
-  const auto end = [&](int i, int slot) {
-    return instances[i].name + '.' + instances[i].object->specification->slots[slot].name;
+  const auto end = [&](bool is_input, int i, int slot) {
+    return instances[i].name + '.' + port_element(*instances[i].object->specification, is_input, slot);
   };
   for (std::size_t i = 0; i < instances.size(); ++i) {
     for (const auto& [slot, from] : instances[i].inputs) {
       if (!from.connected()) continue;
       json["wires"].push_back(
-          {{"from", end(from.instance, from.slot)}, {"to", end(static_cast<int>(i), slot)}});
+          {{"from", end(false, from.instance, from.slot)}, {"to", end(true, static_cast<int>(i), slot)}});
     }
   }
   for (const ExecutionStep& step : execution_order(plan))

@@ -15,5 +15,6 @@ cmake --build "$folder/build" >>"$folder/log" || { cat "$folder/log"; exit 1; }
 # The error of a run at rtol 1e-10 over one period.
 tail -n 1 "$folder/springs.csv" |
   awk -F, '{ if ($2 < 1 - 1e-7 || $2 > 1 + 1e-7) { print "position " $2 " instead of 1"; exit 1 } }'
-"$folder/build/springs" blocks StiffeningSpring | grep -q "how it grows"
+"$folder/build/springs" blocks StiffeningSpring >"$folder/page"
+grep -q "how it grows" "$folder/page"
 "$folder/build/springs" check "$here/project/springs.toml"

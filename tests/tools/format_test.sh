@@ -2,7 +2,7 @@
 # flyball format and flyball diff.
 source "$(dirname -- "${BASH_SOURCE[0]}")/expect.sh"
 
-sed 's/ = /=/; s/^[a-z]/  &/' "$arc" >untidy.toml
+sed '/^#/!{s/ = /=/; s/^[a-z]/  &/}' "$arc" >untidy.toml
 expect 1 format --check untidy.toml
 says out "untidy.toml: would be formatted"
 expect 0 format untidy.toml
@@ -27,7 +27,7 @@ says out "Example:"
 expect 0 diff "$arc" moved.toml
 is_empty out
 
-sed -e 's/^K_H .*/K_H = { value = 3.0, unit = "1\/m" }/' -e 's/^sine .*/sine = { type = "Abs" }/' \
+sed -e 's/^K_H .*/K_H = { value = 3.0, unit = "1\/m", doc = "gain of the distance error" }/' -e 's/^sine .*/sine = { type = "Abs" }/' \
   -e '/^wires/a "H -> scope",' -e '/^\[blocks\]/a scope = { type = "Gain" }' -e 's/"10 s"/"20 s"/' "$arc" >other.toml
 expect 1 diff "$arc" other.toml
 is_empty err

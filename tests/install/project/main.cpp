@@ -1,4 +1,5 @@
 #include "blocks/block.h"
+#include "blocks/jet_kernels.h"
 #include "blocks/registry.h"
 #include "tools/command_line.h"
 
