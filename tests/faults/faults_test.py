@@ -88,8 +88,9 @@ def problems(result, fault, before, after, whole):
         expected = [0, 5] if call in MAY_BE_IGNORED else [5]
     if result.returncode not in expected:
         yield f"status {result.returncode}"
-    if result.returncode == 0 and after != whole:
-        yield f"success, and not all is there: {sorted(name for name in whole if after.get(name) != whole[name])}"
+    missing = [name for name in whole if after.get(name) != whole[name]]
+    if result.returncode == 0 and missing:
+        yield f"success, and not all is there: {missing}"
     if result.returncode == 5:
         names = [*whole, *before, "pages", "standard output"]
         if not any(name in result.stderr for name in names) or os.strerror(number) not in result.stderr:

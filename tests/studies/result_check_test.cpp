@@ -141,8 +141,8 @@ TEST_CASE("Result check: header, numbers and times are looked at even where the 
         Problems{"a.csv:1:1: error: expected the columns time,x,k, found time,y,k"});
   CHECK(with("\n0.5,", "\n0.35,") == Problems{"a.csv:7:1: error: time falls from 0.4 s to 0.35 s"});
   CHECK(with("\n0.5,", "\ninf,") == Problems{"a.csv:7:1: error: expected a finite number, found inf"});
-  CHECK(with("\n0.5,", "\n0.5,1,1,1\n0.5,") ==
-        Problems{"a.csv:7:9: error: expected 3 numbers, one for each column of the header, found 4"});
+  CHECK(with("\n0,1,-1\n", "\n0,1,-1,0\n") ==
+        Problems{"a.csv:2:8: error: expected 3 numbers, one for each column of the header, found 4"});
 }
 
 TEST_CASE("Result check: a missing file is named") {
