@@ -135,6 +135,10 @@ class alignas(8 * lane_count) Lanes {
   friend Lanes log10(const Lanes& x) {
     return map(x, [](double a) { return std::log10(a); });
   }
+  /// A function of two numbers, lane by lane.
+  friend Lanes each(const Lanes& a, const Lanes& b, double (*function)(double, double)) {
+    return map(a, b, function);
+  }
   friend Lanes floor(const Lanes& x) {
     return map(x, [](double a) { return std::floor(a); });
   }
@@ -220,6 +224,11 @@ class alignas(8 * lane_count) LaneBit {
  private:
   Masks part_[parts];
 };
+
+/// Each lane has a count of its own: a block that needs it says that it has no lockstep
+/// (blocks/lane_kernels.h).
+template <Isa isa>
+int index_of(const Lanes<isa>& count) = delete;
 
 template <Isa isa>
 struct BitOf<Lanes<isa>> {

@@ -22,20 +22,22 @@ double normal_number(double stream, double k);
 /// The same on any scalar: a random number has no derivative. For scalars without a value only the form
 /// counts: it depends on both, which are numbers.
 template <class T>
-T uniform(const T& stream, const T& k) {
+T random_number(const T& stream, const T& k, double (*number)(double, double)) {
   if constexpr (requires { value_of(k); }) {
-    return T(uniform_number(value_of(stream), value_of(k)));
+    return T(number(value_of(stream), value_of(k)));
+  } else if constexpr (requires { each(stream, k, number); }) {
+    return each(stream, k, number);
   } else {
     return wrap(stream * k);
   }
 }
 template <class T>
+T uniform(const T& stream, const T& k) {
+  return random_number(stream, k, uniform_number);
+}
+template <class T>
 T normal(const T& stream, const T& k) {
-  if constexpr (requires { value_of(k); }) {
-    return T(normal_number(value_of(stream), value_of(k)));
-  } else {
-    return wrap(stream * k);
-  }
+  return random_number(stream, k, normal_number);
 }
 
 }  // namespace flyball

@@ -7,6 +7,7 @@ namespace flyball {
 
 struct RepeatingSequence : Block {
   static constexpr auto summary = "Values at given times, again and again.";
+  static constexpr bool lockstep = false;  // each run is at a row of its own
   bool interpolates = option("interpolation", "linear", {"linear", "hold"}, "between two times") == 0;
   Coefficients given_times =
       coefficients("times", {0.0, 2.0}, "s", "times, rising; the last one ends the period");

@@ -208,6 +208,38 @@ stop = "1 s"
   CHECK(refuses_lanes(*stateless.plan, stateless.settings) == "there are no states to integrate");
 }
 
+TEST_CASE("Blocks, loops and ends that are one run's own are named") {
+  const auto reason = [](const std::string& blocks, const std::string& wires) {
+    const Model model =
+        read_model("flyball = 1\n[blocks]\nx = { type = \"Integrator\", initial = 1.0 }\n" + blocks +
+                   "[diagram]\nwires = [" + wires + "]\nlog = [\"x\"]\n[simulation]\nstop = \"1 s\"\n");
+    return refuses_lanes(*model.plan, model.settings);
+  };
+  CHECK(reason("s = { type = \"RepeatingSequence\" }\n", "\"s -> x\"") ==
+        "s is a RepeatingSequence, which exists on numbers alone");
+  CHECK(reason("end = { type = \"StopSimulation\" }\n", "\"x -> end\", \"x -> x\"") ==
+        "end may end a run before the others");
+  CHECK(reason("e = { type = \"Sum\", signs = \"+-\" }\nk = { type = \"Gain\", gain = 0.5 }\n",
+               "\"x -> e.u1\", \"e -> k -> e.u2\", \"k -> x\"") ==
+        "an algebraic loop is solved for one run at a time");
+  CHECK(reason("n = { type = \"RandomNumber\", sample_time = \"0.1 s\" }\n", "\"n -> x\"").empty());
+}
+
+TEST_CASE("Lanes agree with single runs: noise of each run") {
+  const Model model = read_model(R"(
+flyball = 1
+[blocks]
+n = { type = "RandomNumber", sample_time = "0.1 s" }
+x = { type = "TransferFcn", denominator = [0.2, 1.0] }
+[diagram]
+wires = ["n -> x"]
+log = ["x"]
+[simulation]
+stop = "1 s"
+)");
+  check_against_single_runs(model, sweep(model, "n.deviation", {1.0, 2.0, 0.5, 3.0}));
+}
+
 TEST_CASE("Where auto leaves dp5, no run goes in lockstep") {
   Model model = shipped("classic/van_der_pol_stiff.toml");
   model.settings.method = "auto";
