@@ -51,7 +51,12 @@ class Runner {
  public:
   Runner(std::shared_ptr<const Plan> plan, const SimulationSettings& settings,
          std::span<const ParameterSet> sets, const LaneOptions& options)
-      : plan_(std::move(plan)), settings_(settings), sets_(sets), options_(options), outcomes_(sets.size()) {}
+      : plan_(std::move(plan)),
+        settings_(settings),
+        sets_(sets),
+        options_(options),
+        fresh_(*plan_),
+        outcomes_(sets.size()) {}
 
   std::vector<LaneOutcome> run() {
     const bool lanes = runs() > 0 && refuses_lanes(*plan_, settings_).empty() && begins_explicitly();
@@ -115,7 +120,7 @@ class Runner {
 
   /// False where the run fails before it begins.
   bool begin(const ParameterSet& set, Workspace<double>& workspace) const {
-    for (const Start& literal : plan_->literals) workspace.values[literal.slot] = literal.value;
+    workspace.values = fresh_.values;
     for (const auto& [slot, value] : set) workspace.values[slot] = value;
     derive(*plan_, workspace);
     require_in_range(*plan_, workspace);
@@ -145,6 +150,7 @@ class Runner {
   const SimulationSettings& settings_;
   std::span<const ParameterSet> sets_;
   const LaneOptions& options_;
+  Workspace<double> fresh_;  // what a run begins with before its parameters are set
   std::vector<LaneOutcome> outcomes_;
 };
 
