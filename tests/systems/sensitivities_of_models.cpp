@@ -32,11 +32,7 @@ std::vector<std::string> parameters_of(const Plan& plan) {
   std::vector<std::string> all, some;
   for (const Start& literal : plan.literals) {
     const std::string name = plan.slot_name(literal.slot);
-<<<<<<< HEAD
-    if (plan.parameter_slot(name) < 0) continue;  // the sample time, the stream of a noise
-=======
     if (plan.parameter_slot(name) != literal.slot) continue;  // a sample time
->>>>>>> sens-loops
     const int p = plan.diagram->find_parameter(name);
     if (p < 0 || !plan.diagram->parameters[p].structural) all.push_back(name);
   }
