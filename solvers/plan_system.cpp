@@ -51,7 +51,7 @@ void PlanSystem::jacobian(double t, const double* x, double* values) {
   lift(workspace_, jets_);
   const Sparsity& pattern = plan_.pattern;
   Jet* states = jets_.values.data() + plan_.layout.first_state;
-  const Frame<Jet> f = jet_frame();
+  const RunFrame<Jet> f = jet_frame();
   for (int first = 0; first < plan_.colouring.colours; first += Jet::DIMENSION) {
     const auto direction = [&](int c) { return plan_.colouring.colour[c] - first; };
     const auto seeded = [&](int c) { return direction(c) >= 0 && direction(c) < Jet::DIMENSION; };
@@ -74,8 +74,8 @@ void PlanSystem::jacobian(double t, const double* x, double* values) {
 }
 
 /// Memories are not copied: minor steps only read them.
-Frame<Jet> PlanSystem::jet_frame() {
-  Frame<Jet> f = frame(plan_, jets_, jet_rates_.data());
+RunFrame<Jet> PlanSystem::jet_frame() {
+  RunFrame<Jet> f = frame(plan_, jets_, jet_rates_.data());
   f.memories = workspace_.memories.data();
   return f;
 }

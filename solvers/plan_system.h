@@ -39,7 +39,7 @@ class PlanSystem final : public System<double> {
   const std::vector<double>& zero_rates(const double* dx);
 
  private:
-  Frame<Jet> jet_frame();
+  RunFrame<Jet> jet_frame();
 
   const Plan& plan_;
   Workspace<double>& workspace_;
