@@ -145,9 +145,11 @@ double complexity(const LinearForm& unit) {
 /// What was written with a unit is suspected before a factor that was written without one, and a correction
 /// most often makes a unit simpler.
 auto rank(const SignalEquations& equations, const Suspect& suspect) {
-  const bool from_file = equations.position(equations.all()[suspect.equation].subject).line > 0;
+  const SignalEquation& equation = equations.all()[suspect.equation];
+  const bool from_file = equations.position(equation.subject).line > 0;
+  const bool plain = equation.kind == Kind::literal;
   const double needed = complexity(suspect.needed);
-  return std::tuple(from_file, suspect.remaining, needed - complexity(suspect.unit), needed,
+  return std::tuple(from_file, suspect.remaining, plain, needed - complexity(suspect.unit), needed,
                     suspect.equation);
 }
 

@@ -18,13 +18,13 @@ L = { value = 0.3, unit = "m" }
 turn = "if(V > 0.2 m/s, -2*V/L, min(V/L, 1 1/s))"
 Ts = "1/3 s"
 [blocks]
-step = { type = "Step", time = "10 ms", after = "V" }
+step = { type = "Step", time = "10 ms", after = "V/L" }
 error = { type = "Sum", signs = "+-" }
 control = { type = "PID", Kp = "2*turn", Ki = 0.5, setpoint_weights = false }
 plant = { type = "TransferFcn", numerator = [1.0], denominator = ["L", 0, 1.0] }
 drive = { type = "DifferentialDrive" }
 split = { type = "Mux", inputs = 3 }
-square = { type = "Expression", formula = "u1^2 + abs(u2)*V", inputs = ["u1", "u2"] }
+square = { type = "Expression", formula = "u1^2 + abs(u2)*L^3/V", inputs = ["u1", "u2"] }
 held = { type = "ZeroOrderHold", sample_time = "Ts" }
 [diagram]
 wires = [

@@ -37,6 +37,20 @@ says err "loop.toml: error: algebraic loop at t = 0 s: no solution, x.y needs to
 expect 0 check --json "$arc"
 says out '"ok": true'
 says out '"states": 2'
+
+expect 0 check --units "$arc"
+says out "signal  unit"
+says out "H       m"
+says out "K_gamma    1"
+expect 0 check --units --json "$arc"
+says out '"name": "K_H",'
+says out '"unit": "1/m"'
+sed -e 's|unit = "1/m"|unit = "1/s"|' "$arc" >"wrong unit.toml"
+expect 3 check "wrong unit.toml"
+says err "error: K_H is in 1/s, but the diagram needs it in 1/m"
+expect 3 run "wrong unit.toml"
+says err "error: K_H is in 1/s, but the diagram needs it in 1/m"
+
 expect 0 check --help
 says out "Example:"
 
