@@ -17,7 +17,9 @@ void History::add(double t, double u, double forget_before) {
   open_.u[filled_++] = u;
   if (filled_ < points) return;
   open_.end = t;
-  while (!empty() && ring_[first_].end < forget_before) {
+  // The rows inside this step are asked for after it: they look as far back as from its beginning.
+  const double forgotten = forget_before - (t - open_.begin);
+  while (!empty() && ring_[first_].end < forgotten) {
     first_ = (first_ + 1) % ring_.size();
     --size_;
   }

@@ -88,7 +88,7 @@ expect 0 blocks PID
 says out "# PID"
 says out '| `Kp` | any | 1 | any | proportional gain |'
 says out '| `N` | rad/s | 100 | > 0 | pole of the derivative filter |'
-says out '| `anti_windup` | `"none"` | none, clamping, back_calculation |'
+says out '| `anti_windup` | `"none"` | none, clamping, back_calculation, tracking |'
 says out '| rate of `integral` | `Ki`, `e` |'
 expect 0 blocks PID --json
 says out '"default": 100.0'
