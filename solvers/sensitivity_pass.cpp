@@ -238,8 +238,21 @@ void SensitivityPass::swept(const Due* hits) {
 /// With `settle_beside`, bits settle by value, but for those that were located in this instant.
 void SensitivityPass::sweep(const Due* hits, const Zeros* settle_beside) {
   if (plan_.layout.objects > 0) jets_.objects = run_->objects;
-  const Frame<Jet> f = frame(plan_, jets_);
-  for (const Op& op : plan_.sweep.ops) {
+  const Program& program = plan_.sweep;
+  int done = 0;
+  for (const LoopSpan& span : program.loops) {
+    call_all({done, span.first}, hits, settle_beside);
+    solve_loop({plan_, program, span, hits == nullptr ? nullptr : &hits->rates}, frame(plan_, jets_),
+               jets_.loops);
+    done = span.last;
+  }
+  call_all({done, static_cast<int>(program.ops.size())}, hits, settle_beside);
+}
+
+void SensitivityPass::call_all(std::pair<int, int> ops, const Due* hits, const Zeros* settle_beside) {
+  const auto f = frame(plan_, jets_);
+  for (int at = ops.first; at < ops.second; ++at) {
+    const Op& op = plan_.sweep.ops[at];
     if (op.rate >= 0 && (hits == nullptr || hits->rates[op.rate] == 0)) continue;
     if (op.object->type->differentiable) {
       call(op, plan_, f);

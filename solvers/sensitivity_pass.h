@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solvers/instant.h"
@@ -80,6 +81,7 @@ class SensitivityPass {
   void shift_to_instant(const Derivatives& time);
   void shift_back();
   void sweep(const Due* hits, const Zeros* settle_beside = nullptr);
+  void call_all(std::pair<int, int> ops, const Due* hits, const Zeros* settle_beside);
   void settle(int slot, const Zeros& located);
   void take_outputs(const Op& op);
   void record(std::size_t k);

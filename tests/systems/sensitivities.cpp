@@ -269,6 +269,38 @@ stop = 2
                     [&](double t, const Jets& p) { return loop(t, p, true); });
 }
 
+TEST_CASE("Sensitivities through algebraic loops, during steps and at hits") {
+  // z = k (x - z), x' = z; and the same from a sampled x, where the loop is solved at hits only.
+  const Model model = read_model(R"toml(
+flyball = 1
+[parameters]
+k = 0.6
+[blocks]
+x = { type = "Integrator", initial = 2.0 }
+net = { type = "Sum", signs = "+-" }
+z = { type = "Gain", gain = "k" }
+sampled_x = { type = "Integrator", initial = 2.0 }
+hold = { type = "ZeroOrderHold", sample_time = "1/4 s" }
+sampled_net = { type = "Sum", signs = "+-" }
+sampled_z = { type = "Gain", gain = "k" }
+[diagram]
+wires = ["x -> net.u1", "z -> net.u2", "net -> z -> x",
+         "sampled_x -> hold -> sampled_net.u1", "sampled_z -> sampled_net.u2", "sampled_net -> sampled_z -> sampled_x"]
+log = ["x", "sampled_x"]
+[simulation]
+stop = 1.9
+)toml");
+  const auto factor = [](const Jets& p) { return p[0] / (1.0 + p[0]); };
+  check_closed_form(model, {{"k", "x.initial"}, {"x"}, grid(1.9, 23)},
+                    [&](double t, const Jets& p) { return p[1] * exp(factor(p) * t); });
+  check_closed_form(model, {{"k", "sampled_x.initial"}, {"sampled_x"}, grid(1.9, 23)},
+                    [&](double t, const Jets& p) {
+                      Jet x = p[1];
+                      for (; t > 0.25; t -= 0.25) x *= 1.0 + 0.25 * factor(p);
+                      return x * (1.0 + t * factor(p));
+                    });
+}
+
 TEST_CASE("Sensitivities through a saturation, whose limit the signal leaves on the way") {
   const Model model = read_model(R"toml(
 flyball = 1
