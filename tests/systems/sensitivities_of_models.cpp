@@ -114,7 +114,7 @@ void compare(const std::vector<double>& found, const Difference& wanted, int sig
     INFO("sample " << k << ", from the left " << left << ", from the right " << right);
     const double kink =
         std::fabs(2.0 * wanted.near[i] - wanted.bend[i]);  // moves a central difference by half
-    if (kink < 4.0 * tolerance) {
+    if (kink < 0.01 * size + tolerance) {
       CHECK(std::fabs(found[k] - wanted.central[i]) <= tolerance + 0.5 * kink);
       continue;
     }
