@@ -22,7 +22,7 @@ auto select_lazily(auto bit, auto&& above, auto&& below) {
 struct TableAxis {
   // In the order of `method_names`.
   enum class Method { linear, nearest, flat };
-  static inline const std::vector<std::string> method_names{"linear", "nearest", "flat"};
+  static std::vector<std::string> method_names() { return {"linear", "nearest", "flat"}; }
 
   Coefficients breakpoints;
   Method method;

@@ -6,7 +6,7 @@ namespace flyball {
 struct LookupTable1D : Block {
   static constexpr auto summary = "A function of its input, given by a table.";
   TableAxis::Method method = static_cast<TableAxis::Method>(
-      option("method", "linear", TableAxis::method_names,
+      option("method", "linear", TableAxis::method_names(),
              "between breakpoints: a line, the nearest value, or the value of the breakpoint below"));
   bool clips =
       option("extrapolation", "linear", {"linear", "clip"},

@@ -6,7 +6,7 @@ namespace flyball {
 struct LookupTable2D : Block {
   static constexpr auto summary = "A function of its two inputs, given by a table.";
   TableAxis::Method method = static_cast<TableAxis::Method>(option(
-      "method", "linear", TableAxis::method_names,
+      "method", "linear", TableAxis::method_names(),
       "between breakpoints: linear in each input, the nearest value, or that of the breakpoints below"));
   bool clips = option("extrapolation", "linear", {"linear", "clip"},
                       "beyond the ends of `linear`: as in the last interval, or the value at the end") == 1;
