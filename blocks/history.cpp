@@ -17,9 +17,10 @@ void History::add(double t, double u, double forget_before) {
   open_.u[filled_++] = u;
   if (filled_ < points) return;
   open_.end = t;
-  // The rows inside this step are asked for after it: they look as far back as from its beginning.
+  // The rows inside this step are asked for after it: they look as far back as from its beginning, give or
+  // take rounding.
   const double forgotten = forget_before - (t - open_.begin);
-  while (!empty() && ring_[first_].end < forgotten) {
+  while (size_ > 1 && (*this)[1].end < forgotten) {
     first_ = (first_ + 1) % ring_.size();
     --size_;
   }

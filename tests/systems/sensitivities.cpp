@@ -563,3 +563,28 @@ TEST_CASE("One object serves many values, and gives what a new one gives, on any
   CHECK(others[1] == fresh.derivatives());
   CHECK_THROWS_AS(fresh.run(std::vector<double>{std::nan(""), -1.0, 0.0, 1.0}), std::invalid_argument);
 }
+
+TEST_CASE("S37: sensitivities go through a loop whose bits change") {
+  // y = sat(g (t - y)) is g t/(1 + g) up to t = 1 + 1/g, then 1; x is its integral.
+  const Model model = read_model(R"toml(
+flyball = 1
+[parameters]
+g = 4.0
+[blocks]
+t = { type = "Clock" }
+error = { type = "Sum", signs = "+-" }
+gain = { type = "Gain", gain = "g" }
+limit = { type = "Saturation" }
+x = { type = "Integrator" }
+[diagram]
+wires = ["t -> error.u1", "error -> gain -> limit -> error.u2", "limit -> x"]
+log = ["x"]
+[simulation]
+stop = 2
+)toml");
+  check_closed_form(model, {{"g"}, {"x"}, grid(2.0, 7)}, [](double t, const Jets& p) {
+    const Jet ends = 1.0 + 1.0 / p[0];
+    const Jet slope = p[0] / (1.0 + p[0]);
+    return t < ends.a ? 0.5 * slope * t * t : 0.5 * ends + (t - ends);
+  });
+}
