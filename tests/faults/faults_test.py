@@ -11,6 +11,8 @@ import tempfile
 from pathlib import Path
 
 FLYBALL, SHIM, SOURCES = sys.argv[1:]
+if " " in SHIM:  # LD_PRELOAD is cut at blanks
+    SHIM = shutil.copy(SHIM, tempfile.mkdtemp(prefix="flyball-shim-"))
 ARC = (Path(SOURCES) / "models/line_arc/arc_error_loop.toml").read_bytes()
 SHORT_WRITE = 0
 

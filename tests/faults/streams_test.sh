@@ -4,8 +4,11 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/../tools/expect.sh"
 sed 's/ = /=/' "$arc" >untidy.toml
 expect 0 run "$arc" --quiet --output r.csv
 
-commands=("run $arc" "check $arc" "check r.csv" "graph $arc" "graph --order $arc" "format --check untidy.toml"
-  "blocks" "blocks PID" "blocks --json" "blocks --schema" "--help" "--version" "diff $arc untidy.toml --json")
+cp "$arc" arc.toml  # a name without blanks: commands are cut into words
+commands=("run arc.toml" "check arc.toml" "check r.csv" "graph arc.toml" "graph --order arc.toml"
+  "format --check untidy.toml" "blocks" "blocks PID" "blocks --json" "blocks --schema" "--help" "--version"
+  "diff arc.toml other.toml --json")
+sed 's/"10 s"/"20 s"/' "$arc" >other.toml
 for command in "${commands[@]}"; do
   # shellcheck disable=SC2086
   set -- $command
