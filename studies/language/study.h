@@ -130,6 +130,8 @@ struct ParetoDefinition {
   std::vector<int> minimise;  // numbers in Study::metrics
   std::vector<int> maximise;
   std::vector<int> requirements;  // numbers in Study::requirements that must hold
+  std::vector<int>
+      scenarios;  // numbers in Study::scenarios: objectives are means over them; empty: the first
   std::vector<double> reference;  // point of the hypervolume; empty: from the front
   std::string pick = "knee";      // of what is written back: "knee", an objective, or weights
   std::vector<double> weights;
