@@ -19,6 +19,7 @@ struct ParetoPoint {
 struct ParetoResult {
   std::string name;
   std::vector<std::string> parameters, objectives;
+  std::size_t minimised = 0;  // so many objectives are minimised, those behind them maximised
   std::vector<std::string> parameter_units, objective_units;
   std::vector<ParetoPoint> front;
   std::vector<double> reference;  // of the hypervolume
