@@ -97,4 +97,38 @@ double ObjectiveRanges::part(const ParetoPoint& point, std::size_t objective) co
   return range > 0.0 ? (point.objectives[objective] - lowest[objective]) / range : 0.0;
 }
 
+void turn_maximised(std::vector<double>& objectives, std::size_t minimised) {
+  for (std::size_t k = minimised; k < objectives.size(); ++k) objectives[k] = -objectives[k];
+}
+
+std::vector<Setting> ParetoResult::settings() const {
+  std::vector<Setting> result;
+  if (picked < 0) return result;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    result.push_back({parameters[k], front[picked].parameters[k]});
+  }
+  return result;
+}
+
+int pick_point(const ParetoResult& result, const std::string& pick, const std::vector<double>& weights) {
+  if (result.front.empty()) return -1;
+  std::vector<ParetoPoint> front = result.front;
+  for (ParetoPoint& point : front) turn_maximised(point.objectives, result.minimised);
+  const ObjectiveRanges ranges(front);
+  const auto named = std::ranges::find(result.objectives, pick);
+  const auto cost = [&](const ParetoPoint& point) {
+    if (named != result.objectives.end()) {
+      return point.objectives[static_cast<std::size_t>(named - result.objectives.begin())];
+    }
+    // The knee lies farthest from the plane through the best points of each objective: with all ranges made
+    // equal, that is where their sum is least.
+    double sum = 0.0;
+    for (std::size_t k = 0; k < point.objectives.size(); ++k) {
+      sum += (pick == "weights" ? weights[k] : 1.0) * ranges.part(point, k);
+    }
+    return sum;
+  };
+  return static_cast<int>(std::ranges::min_element(front, {}, cost) - front.begin());
+}
+
 }  // namespace flyball

@@ -33,6 +33,9 @@ std::vector<double> crowding_distances(const std::vector<ParetoPoint>& points);
 /// 0: even; NaN with less than three points.
 double spread(const std::vector<ParetoPoint>& points);
 
+/// Objectives behind the first `minimised` change their sign: sought as minima, shown as what they are.
+void turn_maximised(std::vector<double>& objectives, std::size_t minimised);
+
 /// Smallest and largest value of each objective.
 struct ObjectiveRanges {
   std::vector<double> lowest, highest;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <pagmo/algorithm.hpp>
 #include <pagmo/algorithms/moead.hpp>
 #include <pagmo/algorithms/nsga2.hpp>
@@ -117,11 +116,6 @@ ParetoResult describe(const Study& study, const ParetoDefinition& definition) {
   return result;
 }
 
-/// Objectives to be maximised have been sought with the other sign.
-void flip(std::vector<double>& objectives, std::size_t minimised) {
-  for (std::size_t k = minimised; k < objectives.size(); ++k) objectives[k] = -objectives[k];
-}
-
 void require_possible(const ParetoDefinition& definition) {
   const bool multiple_of_four = definition.population % 4 == 0;
   if (definition.algorithm == "nsga2" && (!multiple_of_four || definition.population < 8)) {
@@ -148,45 +142,15 @@ ParetoResult run_pareto(const Study& study, const ParetoDefinition& definition, 
   result.front = front_search.archive().thinned(static_cast<std::size_t>(definition.population));
   if (result.front.empty()) return result;
   std::vector<double> reference = definition.reference;
-  flip(reference, reference.empty() ? 0 : result.minimised);
+  turn_maximised(reference, reference.empty() ? 0 : result.minimised);
   if (reference.empty()) reference = reference_behind(result.front);
   result.hypervolume = hypervolume_of(result.front, reference);
   result.spread = spread(result.front);
-  for (ParetoPoint& point : result.front) flip(point.objectives, result.minimised);
-  flip(reference, result.minimised);
+  for (ParetoPoint& point : result.front) turn_maximised(point.objectives, result.minimised);
+  turn_maximised(reference, result.minimised);
   result.reference = std::move(reference);
   result.picked = pick_point(result, definition.pick, definition.weights);
   return result;
-}
-
-std::vector<Setting> ParetoResult::settings() const {
-  std::vector<Setting> result;
-  if (picked < 0) return result;
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
-    result.push_back({parameters[k], front[picked].parameters[k]});
-  }
-  return result;
-}
-
-int pick_point(const ParetoResult& result, const std::string& pick, const std::vector<double>& weights) {
-  if (result.front.empty()) return -1;
-  std::vector<ParetoPoint> front = result.front;
-  for (ParetoPoint& point : front) flip(point.objectives, result.minimised);
-  const ObjectiveRanges ranges(front);
-  const auto named = std::ranges::find(result.objectives, pick);
-  const auto cost = [&](const ParetoPoint& point) {
-    if (named != result.objectives.end()) {
-      return point.objectives[static_cast<std::size_t>(named - result.objectives.begin())];
-    }
-    // The knee lies farthest from the plane through the best points of each objective: with all ranges made
-    // equal, that is where their sum is least.
-    double sum = 0.0;
-    for (std::size_t k = 0; k < point.objectives.size(); ++k) {
-      sum += (pick == "weights" ? weights[k] : 1.0) * ranges.part(point, k);
-    }
-    return sum;
-  };
-  return static_cast<int>(std::ranges::min_element(front, {}, cost) - front.begin());
 }
 
 }  // namespace flyball
