@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "studies/engine/evaluator.h"
+#include "studies/language/sampling.h"
 
 namespace flyball {
 
@@ -15,9 +16,9 @@ struct RunPlace {
   int sample = 0;
 };
 
-/// All runs of a study in their order, made as they are asked for: a table of any size takes no memory.
-/// Sample k has the same seed and the same draws for every case, scenario and sweep point, so that
-/// differences between cases are paired.
+/// All runs of a study, made as they are asked for: a table of any size takes no memory. In their order the
+/// sample changes fastest, then sweep point, scenario, case and model. Sample k has the same seed and the
+/// same draws for every case, scenario and sweep point, so that differences between cases are paired.
 class RunTable {
  public:
   /// `cases` are those of the study with what fits and fronts have found filled in.
@@ -29,9 +30,11 @@ class RunTable {
   RunRequest request(std::int64_t run) const;
 
  private:
+  std::vector<Setting> sweep_settings(std::int64_t point) const;
+
   const Study* study_;
   std::vector<Choice> cases_;
-  std::vector<double> draws_;  // sample by sample, one a spread parameter
+  Sampler sampler_;
 };
 
 }  // namespace flyball

@@ -19,8 +19,11 @@ namespace flyball {
 struct Setting {
   std::string name;
   /// A number goes into its slot [SI]. A text takes the model to be read again with it, as --set does: modes,
-  /// sample times, formulas over the model's parameters.
+  /// sample times, formulas over the model's parameters. Of simulation.*, method and log_interval are texts.
   std::variant<double, std::string> value = 0.0;
+  int model = -1;  // number in Study::models of the one that it is for; -1: all of them
+
+  bool operator==(const Setting&) const = default;
 };
 
 /// A model of a study, planned as its file has it.
