@@ -137,9 +137,8 @@ FitDefinition read_fit(const StudyDraft& draft, const TomlEntry& entry, int mode
     fit.requirements = read_names(*names, "requirement", names_of(draft.study.requirements), report);
   if (const TomlValue* names = table.find("minimise"))
     fit.minimise = read_names(*names, "metric", names_of(draft.study.metrics), report);
-  const bool something = table.find("experiments") != nullptr || table.find("requirements") != nullptr ||
-                         table.find("minimise") != nullptr;
-  if (!something) report.error(entry.at, message::nothing_to_fit());
+  if (!lists_something(table, {"experiments", "requirements", "minimise"}))
+    report.error(entry.at, message::nothing_to_fit());
   read_options(draft, table, fit);
   return fit;
 }

@@ -53,7 +53,7 @@ class FrontReader {
     for (const auto* numbers : {&front_.minimise, &front_.maximise}) {
       for (const int metric : *numbers) objectives_.push_back(known[metric]);
     }
-    if (table_.find("minimise") == nullptr && table_.find("maximise") == nullptr)
+    if (!lists_something(table_, {"minimise", "maximise"}))
       report_.error(entry_.at, message::nothing_to_optimise());
   }
 

@@ -58,6 +58,13 @@ std::int64_t read_count(const TomlValue& table, std::string_view key, std::int64
   return fallback;
 }
 
+bool lists_something(const TomlValue& table, std::initializer_list<std::string_view> keys) {
+  return std::ranges::any_of(keys, [&](std::string_view key) {
+    const TomlValue* list = table.find(key);
+    return list != nullptr && !(list->is(Kind::list) && list->items.empty());
+  });
+}
+
 bool expect_label(const TomlEntry& entry, const Report& report) {
   const bool printable =
       std::ranges::none_of(entry.key, [](unsigned char c) { return c < 0x20 || c == 0x7F; });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,8 @@ void read_word(const TomlValue& table, std::string_view key, const std::vector<s
 /// A whole number from 1 to `most`.
 std::int64_t read_count(const TomlValue& table, std::string_view key, std::int64_t fallback,
                         std::int64_t most, const Report& report);
+/// Whether one of these keys has something in its list.
+bool lists_something(const TomlValue& table, std::initializer_list<std::string_view> keys);
 /// A name that people read, in tables and figures.
 bool expect_label(const TomlEntry& entry, const Report& report);
 
