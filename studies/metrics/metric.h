@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -15,9 +16,10 @@ namespace flyball {
 /// expressions over logged signals and time. docs/guide/metrics.md lists the functions.
 class Metric {
  public:
-  /// Throws TextError: a signal or a function that is not there, a missing argument, dimensions that
-  /// contradict.
-  Metric(std::string_view text, const std::vector<LogColumn>& columns);
+  /// Files, such as the path of cross_track, are found from `folder`. Throws TextError: a signal or a
+  /// function that is not there, a missing argument, dimensions that contradict.
+  Metric(std::string_view text, const std::vector<LogColumn>& columns,
+         const std::filesystem::path& folder = {});
 
   /// NaN where the run has no answer: a signal that did not settle. `statistics` serve steps(),
   /// evaluations(), hits() and events().
