@@ -1,0 +1,48 @@
+#include "studies/language/model_findings.h"
+
+#include <algorithm>
+#include <map>
+
+#include "models/language/messages.h"
+
+namespace flyball {
+namespace {
+
+void add(Diagnostic::Severity severity, Position at, std::string message, Diagnostics& study) {
+  switch (severity) {
+    case Diagnostic::Severity::error:
+      return study.error(at, std::move(message));
+    case Diagnostic::Severity::warning:
+      return study.warning(at, std::move(message));
+    case Diagnostic::Severity::note:
+      return study.note(at, std::move(message));
+  }
+}
+
+}  // namespace
+
+void take_findings(const Diagnostics& found, Position used, const std::string& as, Diagnostics& study,
+                   const std::vector<PlacedOverride>& overrides) {
+  std::map<std::string, int> sources;
+  const auto source_of = [&](const std::string& file) {
+    const auto known = sources.find(file);
+    return known != sources.end() ? known->second
+                                  : sources.emplace(file, study.add_source(file, used, as)).first->second;
+  };
+  for (const Diagnostic& diagnostic : found.sorted()) {
+    const auto about = std::ranges::find_if(overrides, [&](const PlacedOverride& override_) {
+      return diagnostic.at.line == 0 &&
+             diagnostic.message.starts_with(message::in_override(override_.given.name, ""));
+    });
+    if (about == overrides.end()) {
+      Position at = diagnostic.at;
+      at.source = source_of(diagnostic.file);
+      add(diagnostic.severity, at, diagnostic.message, study);
+    } else {
+      const std::size_t prefix = message::in_override(about->given.name, "").size();
+      add(diagnostic.severity, about->at, diagnostic.message.substr(prefix), study);
+    }
+  }
+}
+
+}  // namespace flyball

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/diagram.h"
+
+namespace flyball {
+
+/// A value that a study gives to a model, and where it stands in the study.
+struct PlacedOverride {
+  Override given;
+  Position at;
+};
+
+/// Takes over what was found in a model into the diagnostics of the study that uses it at `used` under the
+/// name `as`. What is said of an override is said where the study gives it.
+void take_findings(const Diagnostics& found, Position used, const std::string& as, Diagnostics& study,
+                   const std::vector<PlacedOverride>& overrides = {});
+
+}  // namespace flyball
