@@ -54,6 +54,12 @@ void check_size(const StudyDraft& draft) {
   draft.report().error(*draft.root.find(swept ? "sweep" : "monte_carlo"), message::too_many_runs(most_runs));
 }
 
+bool is_study(std::string_view text) {
+  Diagnostics unheard("");
+  const auto document = parse_toml(text, unheard);
+  return document && document->root().find("study") != nullptr;
+}
+
 std::optional<Study> read_study(std::string_view text, Diagnostics& diagnostics) {
   const auto document = parse_toml(text, diagnostics);
   if (!document) return std::nullopt;

@@ -19,7 +19,7 @@ namespace flyball {
 struct Setting {
   std::string name;
   /// A number goes into its slot [SI]. A text takes the model to be read again with it, as --set does: modes,
-  /// sample times, formulas over the model's parameters. Of simulation.*, method and log_interval are texts.
+  /// sample times, formulas over the model's parameters.
   std::variant<double, std::string> value = 0.0;
   int model = -1;  // number in Study::models of the one that it is for; -1: all of them
 
@@ -167,6 +167,9 @@ struct Study {
   std::vector<ParetoDefinition> fronts;
   std::vector<PlotDefinition> plots;
 };
+
+/// Whether a file is a study, not a model: it has a section [study].
+bool is_study(std::string_view text);
 
 /// Reads a study and its models. Reports everything that is wrong to `diagnostics`, in the models' files,
 /// too; then the result is empty. `text` is the content of `diagnostics.file()`.
