@@ -217,6 +217,16 @@ Json front() {
                 {"pick", {{"anyOf", {text("\"knee\", or an objective"), by_objective}}}}});
 }
 
+Json bisection() {
+  Json json = table({{"model", text("name of the one model that is looked at")},
+                     {"parameter", text("that is changed")},
+                     {"between", list_of(quantity("an end of the range"))},
+                     {"requirement", text("that holds at one end, and not at the other")},
+                     {"tolerance", quantity("how exactly the value is wanted")}});
+  json["required"] = {"parameter", "between", "requirement"};
+  return json;
+}
+
 Json plot() {
   return table({{"title", text("over the figure")},
                 {"signals", names("logged signals, or metrics over x")},
@@ -244,6 +254,7 @@ Json study_sections() {
           {"requirements", each(one_text, "what makes a run good, such as \"overshoot(y) < 5 %\"")},
           {"fit", each(fit(), "fits by name")},
           {"pareto", each(front(), "fronts by name")},
+          {"bisect", each(bisection(), "limits of parameters by name")},
           {"plot", list_of(plot())}};
 }
 

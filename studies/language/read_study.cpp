@@ -68,7 +68,7 @@ std::optional<Study> read_study(std::string_view text, Diagnostics& diagnostics)
   const TomlValue& root = document->root();
   report.check_keys(root, "a study file",
                     {"flyball", "study", "cases", "scenarios", "sweep", "monte_carlo", "metrics",
-                     "requirements", "fit", "pareto", "plot"});
+                     "requirements", "fit", "pareto", "bisect", "plot"});
   check_version(root, report);
   Study study;
   study.file = diagnostics.file();
@@ -82,6 +82,7 @@ std::optional<Study> read_study(std::string_view text, Diagnostics& diagnostics)
   read_monte_carlo(draft);
   read_fits(draft);
   read_fronts(draft);
+  read_bisections(draft);
   read_cases(draft);
   read_plots(draft);
   check_size(draft);

@@ -141,6 +141,17 @@ struct ParetoDefinition {
   Position at;
 };
 
+/// [bisect.NAME]: between two values of a parameter, the one at which a requirement begins to be broken.
+struct BisectDefinition {
+  std::string name;
+  int model = 0;
+  std::string parameter;
+  double lower = 0.0, upper = 0.0;  // [SI]; the requirement holds at one end and is broken at the other
+  double tolerance = 0.0;           // of the parameter [SI]
+  int requirement = 0;              // number in Study::requirements
+  Position at;
+};
+
 /// [[plot]]
 struct PlotDefinition {
   std::string title;
@@ -165,6 +176,7 @@ struct Study {
   std::vector<std::pair<std::string, std::string>> requirements;  // name, text
   std::vector<FitDefinition> fits;
   std::vector<ParetoDefinition> fronts;
+  std::vector<BisectDefinition> bisections;
   std::vector<PlotDefinition> plots;
 };
 
