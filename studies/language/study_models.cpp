@@ -63,7 +63,7 @@ class ModelReader {
     Diagnostics found(model.file);
     if (auto diagram = read_diagram(model.text, found))
       model.plan = make_plan(std::make_shared<const Diagram>(*std::move(diagram)), found);
-    take_findings(found, file.at, name, diagnostics_);
+    take_findings(found, {file.at, name}, diagnostics_);
     if (model.plan) models_.push_back(std::move(model));
   }
 
