@@ -7,9 +7,9 @@
 #include <limits>
 #include <thread>
 
-#include "models/dimensions.h"
 #include "studies/file.h"
 #include "studies/fit/fit_files.h"
+#include "studies/parameter_unit.h"
 #include "tools/commands.h"
 #include "tools/console.h"
 #include "tools/fit_summary.h"
@@ -26,8 +26,7 @@ namespace fs = std::filesystem;
 /// The parameters of --parameters, with what --bounds and --start say of them in their units.
 class SoughtReader {
  public:
-  SoughtReader(const FitOptions& options, const Plan& plan)
-      : options_(options), units_(dimension_table(*plan.diagram)) {}
+  SoughtReader(const FitOptions& options, const Plan& plan) : options_(options), plan_(plan) {}
 
   std::vector<Sought> read() {
     for (const std::string& name : options_.parameters) {
@@ -52,10 +51,9 @@ class SoughtReader {
   }
 
   double value(const std::string& option, const std::string& name, const std::string& text) const {
-    const auto known = std::ranges::find(units_.parameters, name, &NamedUnit::name);
-    const bool has_unit = known != units_.parameters.end() && !known->unit.empty();
+    const std::string unit = parameter_unit(plan_, name);
     try {
-      return parse_quantity(text, has_unit ? known->unit : "any");
+      return parse_quantity(text, unit.empty() ? "any" : unit);
     } catch (const UsageError& error) {
       throw UsageError(fmt::format("{}: {}: {}", option, name, error.what()));
     }
@@ -74,7 +72,7 @@ class SoughtReader {
   }
 
   const FitOptions& options_;
-  DimensionTable units_;
+  const Plan& plan_;
   std::vector<Sought> sought_;
 };
 

@@ -14,10 +14,9 @@ std::string counted(int n, const char* thing) { return fmt::format("{} {}{}", n,
 std::string parameter_table(const FitResult& result) {
   Table table({"parameter", "start", "value", "standard error", "unit"});
   for (const FittedParameter& p : result.parameters) {
-    const bool has_unit = p.unit != "any" && p.unit != "1";
     table.row({p.name, fmt::format("{:.6g}", p.start), fmt::format("{:.8g}", p.value),
                std::isfinite(p.standard_error) ? fmt::format("{:.2g}", p.standard_error) : "-",
-               has_unit ? p.unit : ""});
+               p.unit == "1" ? "" : p.unit});
   }
   return table.text();
 }

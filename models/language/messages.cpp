@@ -375,22 +375,4 @@ std::string csv_time_falls(double before, double after) {
   return format("time falls from {} s to {} s", before, after);
 }
 
-std::string data_before_start(double time) {
-  return format("the data begin at {} s, before the run, which begins at 0 s", time);
-}
-
-std::string data_at_start_only() { return "all data are at 0 s: nothing has happened there"; }
-
-std::string bounds_reversed(Text name, double lower, double upper) {
-  return format("{}: the lower bound {} is not below the upper one, {}", name, lower, upper);
-}
-
-std::string start_out_of_bounds(Text name, double start, double lower, double upper) {
-  return format("{} starts at {}, out of its bounds {} to {}", name, start, lower, upper);
-}
-
-std::string not_logged(Text signal, const Names& logged) {
-  return format("the model logs no signal \"{}\"", signal) + suggestion(signal, logged);
-}
-
 }  // namespace flyball::message

@@ -143,13 +143,6 @@ std::string csv_time_alone();
 std::string csv_unknown_column(Text name, const Names& known);
 std::string csv_time_falls(double before, double after);
 
-// Fits.
-std::string data_before_start(double time);
-std::string data_at_start_only();
-std::string bounds_reversed(Text name, double lower, double upper);
-std::string start_out_of_bounds(Text name, double start, double lower, double upper);
-std::string not_logged(Text signal, const Names& logged);
-
 // Simulation.
 std::string unknown_method(Text name, const Names& known);
 std::string discrete_with_states(const Names& states);

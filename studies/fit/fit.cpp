@@ -7,11 +7,11 @@
 #include <limits>
 
 #include "blocks/random.h"
-#include "models/language/messages.h"
 #include "studies/fit/identification.h"
 #include "studies/fit/least_squares.h"
 #include "studies/fit/objective.h"
 #include "studies/fit/simulation_settings.h"
+#include "studies/language/study_messages.h"
 
 namespace flyball {
 namespace {
@@ -96,7 +96,7 @@ void Fit::check_matches(const FitExperiment& experiment, const Plan& plan) const
   for (const LogColumn& column : plan.columns) logged.push_back(column.name);
   for (const FitExperiment::Match& match : experiment.matches) {
     if (std::ranges::find(logged, match.signal) == logged.end())
-      throw FitError(prefix_ + message::not_logged(match.signal, logged));
+      throw FitError(prefix_ + message::no_such_thing("logged signal", match.signal, logged));
   }
   for (const Setting& setting : experiment.settings) {
     if (std::ranges::find(unknowns_, setting.name, &Unknown::name) != unknowns_.end())

@@ -18,7 +18,7 @@ class FitError : public std::invalid_argument {
 /// What was found for one parameter [SI].
 struct FittedParameter {
   std::string name;
-  std::string unit;  // "1" for a number, "any" where it is not known
+  std::string unit;  // "1" for a number, empty where it is not known
   double start = 0.0, value = 0.0;
   double standard_error = 0.0;  // NaN where the data do not tell
   bool at_bound = false;

@@ -28,22 +28,17 @@ std::string toml_number(double value) {
 
 std::string comment(const FittedParameter& p) {
   std::string text = fmt::format("# {}", p.name);
-  if (p.unit != "1" && p.unit != "any") text += fmt::format(" [{}]", p.unit);
+  if (!p.unit.empty() && p.unit != "1") text += fmt::format(" [{}]", p.unit);
   text += fmt::format(" from {}", p.start);
   if (std::isfinite(p.standard_error)) text += fmt::format(", standard error {:.3g}", p.standard_error);
   return text + (p.at_bound ? ", at its bound\n" : "\n");
-}
-
-std::string panel_label(const FittedSignal& signal) {
-  const bool known = !signal.unit.empty() && signal.unit != "any" && signal.unit != "1";
-  return known ? fmt::format("{} [{}]", signal.signal, signal.unit) : signal.signal;
 }
 
 Figure figure_of(const FittedExperiment& experiment, const std::string& title, const std::string& csv) {
   Figure figure{title, {}, experiment.times.back()};
   int column = 2;
   for (const FittedSignal& signal : experiment.signals) {
-    Panel panel{panel_label(signal), {}};
+    Panel panel{axis_label(signal.signal, signal.unit), {}};
     for (const char* curve : {"data", "before", "after"}) panel.curves.push_back({csv, column++, curve});
     panel.curves.front().points = true;
     figure.panels.push_back(std::move(panel));

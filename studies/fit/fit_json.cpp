@@ -16,7 +16,7 @@ Json parameters_of(const FitResult& result) {
   Json json = Json::array();
   for (const FittedParameter& p : result.parameters) {
     json.push_back({{"name", p.name},
-                    {"unit", p.unit == "any" ? "" : p.unit},
+                    {"unit", p.unit},
                     {"start", p.start},
                     {"value", number(p.value)},
                     {"standard_error", number(p.standard_error)},

@@ -8,6 +8,7 @@
 #include "models/language/units.h"
 #include "studies/file.h"
 #include "studies/fit/fit.h"
+#include "studies/language/study_messages.h"
 
 namespace flyball {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "models/dimensions.h"
 #include "models/language/messages.h"
 #include "solvers/parameters.h"
 #include "studies/fit/fit.h"
+#include "studies/language/study_messages.h"
+#include "studies/parameter_unit.h"
 
 namespace flyball {
 namespace {
@@ -44,11 +44,6 @@ Range range_of(const Plan& plan, int slot) {
   return range;
 }
 
-std::string unit_of(const DimensionTable& units, const std::string& name) {
-  const auto found = std::ranges::find(units.parameters, name, &NamedUnit::name);
-  return found == units.parameters.end() || found->unit.empty() ? "any" : found->unit;
-}
-
 std::vector<std::string> settable_names(const Plan& plan) {
   std::vector<std::string> names;
   for (const Start& literal : plan.literals) names.push_back(plan.slot_name(literal.slot));
@@ -62,22 +57,30 @@ double scale_of(const Sought& sought, double start) {
   return std::isfinite(width) && width > 0.0 ? 0.5 * width : 1.0;
 }
 
+void require_bounds(const Sought& sought) {
+  if (sought.lower < sought.upper) return;
+  throw std::invalid_argument(fmt::format("{}: {}", sought.name,
+                                          sought.lower == sought.upper
+                                              ? message::bounds_equal(sought.lower)
+                                              : message::range_reversed(sought.lower, sought.upper)));
+}
+
 /// Throws std::invalid_argument with what is wrong.
-Unknown unknown_of(const Sought& sought, const Plan& plan, const DimensionTable& units) {
+Unknown unknown_of(const Sought& sought, const Plan& plan) {
   if (plan.parameter_slot(sought.name) < 0)
     throw std::invalid_argument(message::unknown_parameter(sought.name, settable_names(plan)));
   const int slot = settable_parameter(plan, sought.name);
   const double start = sought.start.value_or(std::ranges::find(plan.literals, slot, &Start::slot)->value);
-  Unknown unknown{sought.name,  unit_of(units, sought.name), start, sought.lower,
+  Unknown unknown{sought.name,  parameter_unit(plan, sought.name),
+                  start,        sought.lower,
                   sought.upper, scale_of(sought, start)};
-  if (!(sought.lower < sought.upper))
-    throw std::invalid_argument(message::bounds_reversed(sought.name, sought.lower, sought.upper));
+  require_bounds(sought);
   const Range range = range_of(plan, slot);
-  const Range bounds{sought.lower, sought.upper};
   if (!range.contains(start))
     throw std::invalid_argument(message::out_of_range(sought.name, start, range, unknown.unit));
-  if (!bounds.contains(start))
-    throw std::invalid_argument(message::start_out_of_bounds(sought.name, start, sought.lower, sought.upper));
+  if (!(sought.lower <= start && start <= sought.upper))
+    throw std::invalid_argument(
+        fmt::format("{}: {}", sought.name, message::start_outside(start, sought.lower, sought.upper)));
   const double margin = inside * unknown.scale;
   unknown.lower = std::max(unknown.lower, range.lower + (range.lower_open ? margin : 0.0));
   unknown.upper = std::min(unknown.upper, range.upper - (range.upper_open ? margin : 0.0));
@@ -90,7 +93,6 @@ double Unknown::difference_step(double value) const { return 3e-4 * std::max(std
 
 std::vector<Unknown> unknowns_of(const std::vector<Sought>& sought, const Plan& plan,
                                  const std::string& prefix) {
-  const DimensionTable units = dimension_table(*plan.diagram);
   std::vector<Unknown> unknowns;
   std::string wrong;
   const auto complain = [&](const std::string& what) {
@@ -101,7 +103,7 @@ std::vector<Unknown> unknowns_of(const std::vector<Sought>& sought, const Plan& 
     try {
       if (std::ranges::find(unknowns, one.name, &Unknown::name) != unknowns.end())
         throw std::invalid_argument(fmt::format("{} is sought twice", one.name));
-      unknowns.push_back(unknown_of(one, plan, units));
+      unknowns.push_back(unknown_of(one, plan));
     } catch (const std::invalid_argument& error) {
       complain(error.what());
     }

@@ -150,7 +150,7 @@ TEST_CASE("Fit: exact gradients of these models agree with differences") {
     SignalModel model(request_for(r, c), [&] {
       std::vector<Unknown> unknowns;
       for (const std::string& name : r.parameters)
-        unknowns.push_back({name, "any", model_value(c.plan(), name)});
+        unknowns.push_back({name, "", model_value(c.plan(), name)});
       return unknowns;
     }());
     std::vector<double> at;
