@@ -87,6 +87,7 @@ double ExactStep::step(double limit, StepMemory&) {
   ++statistics_.steps;
   if (size_ == 0) return end_;
   go(leap(end_ - begin_), after_.data());
+  std::copy(before_.begin() + size_, before_.end(), after_.begin() + size_);
   require_finite();
   return end_;
 }

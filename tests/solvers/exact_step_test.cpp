@@ -115,7 +115,10 @@ TEST_CASE("exact steps hold an input from one restart to the next") {
   stepper.step(2.0, memory);
   CHECK(stepper.state()[0] == 4.0);
   CHECK(stepper.state()[1] == 4.0);
-  std::copy_n(stepper.state(), 2, x);
+  stepper.step(3.0, memory);  // and on, without a restart
+  CHECK(stepper.state()[0] == 9.0);
+  CHECK(stepper.state()[1] == 6.0);
+  x[0] = x[1] = 4.0;
   system.w = -3.0;
   stepper.restart(2.0, x, memory, true);
   stepper.step(4.0, memory);
