@@ -155,7 +155,7 @@ log_interval = "1/5 s"
   compare(model);
 }
 
-TEST_CASE("What is irregular takes the long way: alarms, rows inside steps, long periods") {
+TEST_CASE("What is irregular takes the long way: alarms, rows inside steps, steps before a hit") {
   SECTION("an alarm at a hit, and one between two") {
     for (const char* time : {"2.0", "2.003"}) {
       INFO(time);
@@ -182,7 +182,7 @@ TEST_CASE("What is irregular takes the long way: alarms, rows inside steps, long
   SECTION("steps shorter than the period") {
     Model model = loop();
     model.settings.max_step = 0.004;
-    CHECK(compare(model) == 0);
+    CHECK(compare(model) >= all_but_few);  // from the last step before each
   }
 }
 
