@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "models/dimensions.h"
+#include "models/read_file.h"
 #include "studies/file.h"
 #include "studies/language/run_table.h"
 #include "studies/result_check.h"
@@ -108,7 +109,7 @@ void check_result_file(const std::string& name, Findings& findings) {
 void check_file(const std::string& name, const CheckOptions& options, Findings& findings) try {
   if (std::filesystem::path(name).extension() == ".csv") {
     check_result_file(name, findings);
-  } else if (const std::string text = read_file(name); is_study(text)) {
+  } else if (const std::string text = read_file(name, largest_model); is_study(text)) {
     check_study(name, text, findings);
   } else {
     check_model(name, options, findings);

@@ -49,6 +49,8 @@ std::string bounds_needed(Text name);
 std::string start_outside(double start, double lower, double upper);
 std::string nothing_to_fit();
 std::string nothing_to_match(Text experiment);
+std::string data_before_start(double time);
+std::string data_at_start_only();
 std::string nothing_to_optimise();
 std::string no_such_thing(Text kind, Text name, const Names& known);
 std::string number_count(Text of, std::size_t wanted, std::size_t found);

@@ -42,6 +42,8 @@ expect 0 check --units "$arc"
 says out "signal  unit"
 says out "H       m"
 says out "K_gamma    1"
+expect 0 check --units "$sources/models/benchmarks/robot.toml"
+says out "robot.omega       rad/s"
 expect 0 check --units --json "$arc"
 says out '"name": "K_H",'
 says out '"unit": "1/m"'
