@@ -62,6 +62,24 @@ Json last_row_of(const Log& log) {
   return row;
 }
 
+/// A number that is not there is null.
+Json metrics_of(const Assessment& assessment) {
+  Json metrics = Json::object();
+  for (const auto& [name, text, unit, value] : assessment.metrics)
+    metrics[name] = {{"text", text}, {"value", value}, {"unit", unit}};
+  return metrics;
+}
+
+Json requirements_of(const Assessment& assessment) {
+  Json requirements = Json::object();
+  for (const auto& [name, text, unit, verdict] : assessment.requirements) {
+    requirements[name] = {{"text", text},           {"passed", verdict.passed}, {"margin", verdict.margin},
+                          {"value", verdict.value}, {"time", verdict.time},     {"unit", unit},
+                          {"message", verdict.message}};
+  }
+  return requirements;
+}
+
 constexpr std::string_view seal_begin = ",\n  \"metadata_checksum\": \"";
 
 /// The end of a sidecar: the checksum of all that stands before it.
@@ -108,6 +126,8 @@ std::string metadata_json(const RunResult& result, const RunInputs& inputs, std:
                {"columns", columns_of(result.log)},
                {"last_row", last_row_of(result.log)},
                {"libraries", Json::object()}};
+  if (!result.assessment.metrics.empty()) json["metrics"] = metrics_of(result.assessment);
+  if (!result.assessment.requirements.empty()) json["requirements"] = requirements_of(result.assessment);
   for (const Version& library : library_versions()) json["libraries"][library.name] = library.number;
   if (!csv.empty()) json["csv"] = {{"file", csv_name}, {"checksum", fingerprint(csv)}};
   // A path need not be UTF-8, JSON must be.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "solvers/simulator.h"
+#include "studies/metrics/assessment.h"
 
 namespace flyball {
 
@@ -27,6 +28,7 @@ struct RunResult {
   double wall_time = 0.0;  // s
   RunStatus status = RunStatus::finished;
   std::optional<Profile> profile = {};
+  Assessment assessment = {};  // where it was asked for
   std::string reason = {};  // of a stop, and of an end before the stop time that the model asked for
 };
 

@@ -95,12 +95,36 @@ void add_output(CLI::App* command, RunOptions& options) {
       ->check(CLI::IsMember({"both", "after", "none"}));
 }
 
+void add_criteria(CLI::App* command, RunOptions& options) {
+  const auto read_metric = [&options](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      const std::size_t equals = text.find('=');
+      if (equals == std::string::npos || equals == 0)
+        throw CLI::ValidationError("--metric", fmt::format("expected NAME=TEXT, found \"{}\"", text));
+      options.metrics.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+  };
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--metric", read_metric, "A number to make of the run, such as \"t=settling(y, 2 %)\"")
+      ->type_name("NAME=TEXT")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--require", options.requirements,
+                   "What must hold, such as \"max(y) < 5 V\"; exit status 1 where it does not")
+      ->type_name("TEXT")
+      ->allow_extra_args(false);
+  command->add_option("--junit", options.junit, "Where to write the verdicts as JUnit XML")
+      ->type_name("FILE.xml");
+}
+
 CLI::App* add_run(CLI::App& app, RunOptions& options) {
   CLI::App* command = app.add_subcommand("run", "Run a model and write its results");
   command->add_option("MODEL", options.model, "Model file")->required()->type_name("FILE");
   add_output(command, options);
   add_overrides(command, options.overrides);
   add_solver_options(command, options);
+  add_criteria(command, options);
   command->add_flag("--profile", options.profile,
                     "Show time and events by block, step sizes over time, and which states limited them");
   command->add_flag("--json", options.json, "Print the summary as JSON");

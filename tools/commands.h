@@ -27,6 +27,9 @@ struct RunOptions {
   std::optional<Rational> log_interval;
   std::optional<std::string> method;
   EventRows event_rows = EventRows::both;
+  std::vector<std::pair<std::string, std::string>> metrics;  // by name, besides the model's own
+  std::vector<std::string> requirements;
+  std::string junit;  // XML file; empty: none
   bool profile = false;
   bool json = false;
   bool quiet = false;

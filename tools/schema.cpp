@@ -123,7 +123,9 @@ std::string model_schema() {
       {"blocks", blocks},
       {"diagram", table({{"wires", list_of(text("such as \"a -> b.port\""))},
                          {"log", list_of(text("a signal to record"))}})},
-      {"simulation", simulation()}};
+      {"simulation", simulation()},
+      {"metrics", {{"type", "object"}, {"additionalProperties", text("such as \"settling(y, 2 %)\"")}}},
+      {"requirements", {{"type", "object"}, {"additionalProperties", text("such as \"max(y) < 5 V\"")}}}};
   Json schema = table(std::move(properties));
   schema["required"] = {"flyball", "blocks"};
   Json json = {{"$schema", "http://json-schema.org/draft-04/schema#"}, {"title", "Flyball model"}};
