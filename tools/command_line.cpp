@@ -95,6 +95,12 @@ void add_output(CLI::App* command, RunOptions& options) {
       ->check(CLI::IsMember({"both", "after", "none"}));
 }
 
+/// Whether a name ends like that of a report.
+std::string is_html_file(const std::string& name) {
+  if (std::filesystem::path(name).extension() == ".html") return {};
+  return fmt::format("expected the name of a .html file, found \"{}\"", name);
+}
+
 void add_criteria(CLI::App* command, RunOptions& options) {
   const auto read_metric = [&options](const std::vector<std::string>& texts) {
     for (const std::string& text : texts) {
@@ -116,6 +122,9 @@ void add_criteria(CLI::App* command, RunOptions& options) {
       ->allow_extra_args(false);
   command->add_option("--junit", options.junit, "Where to write the verdicts as JUnit XML")
       ->type_name("FILE.xml");
+  command->add_option("--report", options.report, "Where to write a report of the run")
+      ->type_name("FILE.html")
+      ->check(is_html_file);
 }
 
 CLI::App* add_run(CLI::App& app, RunOptions& options) {
@@ -174,6 +183,24 @@ CLI::App* add_graph(CLI::App& app, GraphOptions& options) {
   return command;
 }
 
+CLI::App* add_report(CLI::App& app, ReportOptions& options) {
+  CLI::App* command = app.add_subcommand("report", "Make one HTML file of a result, which needs no network");
+  const auto is_result = [](const std::string& name) -> std::string {
+    if (std::filesystem::path(name).extension() == ".csv") return {};
+    return fmt::format("expected the .csv file of a result, found \"{}\"", name);
+  };
+  command->add_option("RESULT", options.input, "The .csv file that a run has written")
+      ->required()
+      ->type_name("FILE.csv")
+      ->check(is_result);
+  command->add_option("-o,--output", options.output, "The report; else it stands beside the result")
+      ->type_name("FILE.html")
+      ->check(is_html_file);
+  command->add_flag("-q,--quiet", options.quiet, "Print errors only");
+  command->footer("Example:\n  flyball report result.csv --output report.html");
+  return command;
+}
+
 CLI::App* add_format(CLI::App& app, FormatOptions& options) {
   CLI::App* command = app.add_subcommand("format", "Put model files into the one layout; comments stay");
   command->add_option("FILE", options.files, "Model files, rewritten in place")
@@ -219,12 +246,14 @@ int parse_and_run(int argc, const char* const* argv) {
   RunOptions run;
   CheckOptions check;
   GraphOptions graph;
+  ReportOptions report;
   FormatOptions format;
   DiffOptions diff;
   BlocksOptions blocks;
   const CLI::App* run_app = add_run(app, run);
   const CLI::App* check_app = add_check(app, check);
   const CLI::App* graph_app = add_graph(app, graph);
+  const CLI::App* report_app = add_report(app, report);
   const CLI::App* format_app = add_format(app, format);
   const CLI::App* diff_app = add_diff(app, diff);
   add_blocks(app, blocks);
@@ -239,6 +268,7 @@ int parse_and_run(int argc, const char* const* argv) {
   if (run_app->parsed()) return run_command(run);
   if (check_app->parsed()) return check_command(check);
   if (graph_app->parsed()) return graph_command(graph);
+  if (report_app->parsed()) return report_command(report);
   if (format_app->parsed()) return format_command(format);
   if (diff_app->parsed()) return diff_command(diff);
   return blocks_command(blocks);

@@ -29,7 +29,8 @@ struct RunOptions {
   EventRows event_rows = EventRows::both;
   std::vector<std::pair<std::string, std::string>> metrics;  // by name, besides the model's own
   std::vector<std::string> requirements;
-  std::string junit;  // XML file; empty: none
+  std::string junit;   // XML file; empty: none
+  std::string report;  // HTML file; empty: none
   bool profile = false;
   bool json = false;
   bool quiet = false;
@@ -61,6 +62,12 @@ struct GraphOptions {
   bool json = false;
 };
 
+struct ReportOptions {
+  std::string input;   // CSV file of a result
+  std::string output;  // HTML file; empty: beside the input
+  bool quiet = false;
+};
+
 struct BlocksOptions {
   std::string name;      // empty: all
   std::string markdown;  // folder to write the reference to; empty: none
@@ -74,6 +81,7 @@ int check_command(const CheckOptions& options);
 int format_command(const FormatOptions& options);
 int diff_command(const DiffOptions& options);
 int graph_command(const GraphOptions& options);
+int report_command(const ReportOptions& options);
 int blocks_command(const BlocksOptions& options);
 
 }  // namespace flyball

@@ -7,6 +7,7 @@
 #include "models/language/messages.h"
 #include "studies/file.h"
 #include "studies/metrics/junit.h"
+#include "studies/report/report_files.h"
 #include "tools/commands.h"
 #include "tools/console.h"
 #include "tools/interrupt.h"
@@ -116,7 +117,7 @@ int run_command(const RunOptions& options) {
     return exit_model_error;
   }
   const Criteria criteria = criteria_of(model, options);
-  for (const std::string& file : {options.output, options.junit}) {
+  for (const std::string& file : {options.output, options.junit, options.report}) {
     if (!file.empty()) require_writable(file);
   }
 
@@ -130,6 +131,10 @@ int run_command(const RunOptions& options) {
   ResultFiles written;
   if (!options.output.empty()) written = write_result(result, inputs, options.output);
   if (!options.junit.empty()) write_file(options.junit, junit_xml({{model.name, &result.assessment}}));
+  if (!options.report.empty()) {
+    for (const std::string& warning : write_run_report(result, inputs, options.report))
+      written.warnings.push_back(warning);
+  }
   for (const std::string& warning : written.warnings) complain(fmt::format("warning: {}\n", warning));
   if (options.json) {
     const auto sidecar = std::filesystem::path(options.output).replace_extension("json");

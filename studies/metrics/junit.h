@@ -17,7 +17,4 @@ struct JUnitSuite {
 /// properties. No times in it: equal runs give equal bytes.
 std::string junit_xml(const std::vector<JUnitSuite>& suites);
 
-/// Text as XML takes it, in attributes and between tags; what XML 1.0 cannot hold becomes U+FFFD.
-std::string xml_escaped(std::string_view text);
-
 }  // namespace flyball

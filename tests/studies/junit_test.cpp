@@ -26,9 +26,3 @@ TEST_CASE("JUnit: a suite with a passed and a failed requirement") {
 </testsuites>
 )");
 }
-
-TEST_CASE("JUnit: text that is none of XML's") {
-  CHECK(xml_escaped("a<b & \"c\">") == "a&lt;b &amp; &quot;c&quot;&gt;");
-  CHECK(xml_escaped("one\ntwo") == "one&#10;two");
-  CHECK(xml_escaped(std::string("\x01 \xff µ")) == "\xEF\xBF\xBD \xEF\xBF\xBD µ");
-}
