@@ -29,7 +29,7 @@ struct RunResult {
   RunStatus status = RunStatus::finished;
   std::optional<Profile> profile = {};
   Assessment assessment = {};  // where it was asked for
-  std::string reason = {};  // of a stop, and of an end before the stop time that the model asked for
+  std::string reason = {};     // of a stop, and of an end before the stop time that the model asked for
 };
 
 /// Runs a plan once. `progress` gets the part done, from 0 to 1, and interrupts the run by giving false.

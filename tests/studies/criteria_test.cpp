@@ -58,8 +58,8 @@ TEST_CASE("Criteria: errors stand where they are in the file, all at once") {
       "[requirements]\n\"calm\" = \"over\\u0073hoot(motor) < 5 s\"\n");
   CHECK(model.diagnostics ==
         "model.toml:9:14: error: unknown name \"moter\"; did you mean \"motor\"?\n"
-        "model.toml:11:21: error: V*s and V cannot be added or compared\n"
-        "model.toml:13:38: error: expected a plain number, found s\n");
+        "model.toml:11:21: error: kg*m^2/(s^2*A) and V cannot be added or compared\n"
+        "model.toml:13:35: error: expected a plain number, found s\n");
 }
 
 TEST_CASE("Criteria: a run that was stopped has no metrics and keeps no requirement") {

@@ -19,7 +19,7 @@ calm = "overshoot(motor) < 5 %"
 TOML
 
 expect 0 run motor.toml
-says out "settling     1.95"
+says out "settling  1.947"
 says out "calm         passed   overshoot(motor) is 0 %, expected < 5 %"
 is_empty err
 
