@@ -285,7 +285,9 @@ std::string model_schema() {
       {"blocks", blocks},
       {"diagram", table({{"wires", list_of(text("such as \"a -> b.port\""))},
                          {"log", list_of(text("a signal to record"))}})},
-      {"simulation", simulation()}};
+      {"simulation", simulation()},
+      {"metrics", {{"type", "object"}, {"additionalProperties", text("such as \"settling(y, 2 %)\"")}}},
+      {"requirements", {{"type", "object"}, {"additionalProperties", text("such as \"max(y) < 5 V\"")}}}};
   return schema_of("Flyball model", std::move(properties), {"flyball", "blocks"}, std::move(definitions));
 }
 
