@@ -13,8 +13,8 @@ namespace flyball {
 
 int report_command(const ReportOptions& options) {
   const std::filesystem::path csv(options.input);
-  const std::filesystem::path html =
-      options.output.empty() ? std::filesystem::path(csv).replace_extension("html") : options.output;
+  std::filesystem::path html(options.output);
+  if (options.output.empty()) html = std::filesystem::path(csv).replace_extension("html");
   const ResultCheck check = check_result(csv);
   complain(listing(check.diagnostics));
   if (!check.ok()) return exit_model_error;

@@ -109,12 +109,28 @@ HtmlSection model(const RunReportSources& sources) {
   return section;
 }
 
-HtmlSection again(const ResultFacts& facts) {
+/// What the command line said in the place of the model; all of it where the model is not known any more.
+std::string solver_options(const RunReportSources& sources) {
+  const ResultFacts& facts = sources.facts;
+  const SimulationSettings* model = sources.plan == nullptr ? nullptr : &sources.plan->diagram->simulation;
+  std::string text;
+  const auto add = [&](const char* option, const auto& value, auto own) {
+    if (model == nullptr || model->*own != value) text += fmt::format(" --{} {}", option, value);
+  };
+  add("stop", facts.stop, &SimulationSettings::stop);
+  add("solver", facts.asked_method, &SimulationSettings::method);
+  add("rtol", facts.rtol, &SimulationSettings::rtol);
+  add("atol", facts.atol, &SimulationSettings::atol);
+  add("seed", facts.seed, &SimulationSettings::seed);
+  return text;
+}
+
+HtmlSection again(const RunReportSources& sources) {
+  const ResultFacts& facts = sources.facts;
   std::string command = "flyball run " + shell_quoted(facts.model_file);
   for (const Override& value : facts.overrides)
     command += " --set " + shell_quoted(value.name + "=" + value.value);
-  for (const auto& [option, value] : facts.options)
-    command += fmt::format(" --{} {}", option, shell_quoted(value));
+  command += solver_options(sources);
   command += " --output result.csv --report report.html";
   HtmlTable versions{{"Made with", "Version"}, {{"Flyball", facts.flyball}}, {}};
   for (const Version& library : facts.libraries) versions.rows.push_back({library.name, library.number});
@@ -172,7 +188,7 @@ HtmlPage run_page(const RunReportSources& sources) {
   if (!sources.curves.time.empty() && !facts.columns.empty()) page.sections.push_back(figures(sources));
   page.sections.push_back(solver(facts));
   page.sections.push_back(model(sources));
-  page.sections.push_back(again(facts));
+  page.sections.push_back(again(sources));
   return page;
 }
 
