@@ -318,9 +318,9 @@ Profile Simulator::profile(const Profiler& profiler) const {
 }
 
 void Simulator::set_parameter(std::string_view name, double value) {
-  workspace_.values[settable_parameter(*plan_, name)] = value;
-  derive(*plan_, workspace_);
-  require_in_range(*plan_, workspace_);
+  set_parameters({{settable_parameter(*plan_, name), value}});
 }
+
+void Simulator::set_parameters(const ParameterSet& set) { flyball::set_parameters(*plan_, set, workspace_); }
 
 }  // namespace flyball

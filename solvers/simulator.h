@@ -8,6 +8,7 @@
 #include "solvers/instant.h"
 #include "solvers/log.h"
 #include "solvers/method.h"
+#include "solvers/parameters.h"
 #include "solvers/profile.h"
 #include "solvers/step_polynomial.h"
 #include "solvers/stepper.h"
@@ -68,6 +69,8 @@ class Simulator {
   /// Sets a parameter before the run begins: "K" or "block.parameter", SI. Throws std::invalid_argument when
   /// there is none, when it is structural or derived, or when the value is out of range.
   void set_parameter(std::string_view name, double value);
+  /// The same for several at once, by slots that may be set (`settable_parameter`).
+  void set_parameters(const ParameterSet& set);
 
   /// Tells `listener` what each instant does; it must outlive the run.
   void tell(InstantListener& listener) { instant_.tell(listener); }
