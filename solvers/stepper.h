@@ -49,7 +49,7 @@ struct StepMemory {
   double last_error = 1e-4;  // weighted error of the last accepted step (PI controller)
 
   // What `auto` knows of stiffness.
-  StiffnessCount stiffness;
+  StiffnessCount stiffness = {};
   double stiff_since = std::numeric_limits<double>::infinity();  // s; BDF from then on
   int stiffest_state = -1;
 };
