@@ -7,7 +7,7 @@
 namespace flyball {
 
 /// The value in SI of a number or an expression with units ("250 ms") that is wanted in `unit` and above 0.
-/// Throws UsageError.
+/// Throws std::invalid_argument.
 double parse_positive(const std::string& text, const std::string& unit);
 /// The same as an exact fraction.
 Rational parse_positive_exact(const std::string& text, const std::string& unit);
