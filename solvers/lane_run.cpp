@@ -17,7 +17,7 @@ class LaneRunOn final : public LaneRun {
       : plan_(plan),
         log_options_(log),
         options_(stepper_options(settings)),
-        asked_(settings),
+        asked_(settings, log.times),
         stop_(settings.stop),
         group_(plan),
         stepper_(group_, options_, settings.method == "auto"),

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "solvers/asked_times.h"
 #include "solvers/instant.h"
@@ -18,6 +19,7 @@ namespace flyball {
 struct LogOptions {
   bool enabled = true;
   EventRows event_rows = EventRows::both;
+  std::vector<double> times = {};  // [s], ascending: rows there instead of at SimulationSettings::log_interval
 };
 
 /// What a run did, for its summary and the result's metadata.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "studies/engine/run_study.h"
@@ -7,12 +8,14 @@
 #include "studies/engine/study_metadata.h"
 #include "studies/engine/write_study.h"
 #include "studies/file.h"
+#include "studies/fit/fit_files.h"
 #include "studies/pareto/front_files.h"
 #include "tools/commands.h"
 #include "tools/console.h"
 #include "tools/interrupt.h"
 #include "tools/model_file.h"
 #include "tools/progress_bar.h"
+#include "tools/schema.h"
 
 namespace flyball {
 namespace {
@@ -78,8 +81,15 @@ class StudyBar {
   std::int64_t begun_with_ = 0;
 };
 
-Searches searches_in(const fs::path& folder, std::vector<std::string>& warnings) {
+Searches searches_in(const Study& study, const fs::path& folder, std::vector<std::string>& warnings) {
   Searches searches;
+  searches.fit = run_fit;
+  searches.fitted = [&warnings, &study, folder](const FitResult& fit) {
+    const auto named = std::ranges::find(study.fits, fit.name, &FitDefinition::name);
+    const FitInputs inputs{study.models[named->model].file, study.title, "fit." + fit.name};
+    const ResultFiles written = write_fit(fit, inputs, folder);
+    warnings.insert(warnings.end(), written.warnings.begin(), written.warnings.end());
+  };
   searches.front = run_pareto;
   searches.front_found = [&warnings, folder](const ParetoResult& front) {
     const ResultFiles written = write_front(front, folder / ("pareto." + front.name + ".csv"));
@@ -98,7 +108,7 @@ std::string file_lines(const std::vector<fs::path>& files) {
 /// Writes the results of a complete study and tells of them.
 int finish(const Study& study, const StudyRun& run, const StudyCommandOptions& command,
            const fs::path& folder) {
-  const StudyResults results = write_study(study, run, folder);
+  const StudyResults results = write_study(study, run, folder, command.threads);
   for (const std::string& warning : results.written.warnings) complain(fmt::format("warning: {}\n", warning));
   if (results.failed > 0)
     complain(fmt::format("warning: {} of {} failed: {} tells why\n", results.failed,
@@ -120,7 +130,7 @@ int run(const Study& study, const StudyCommandOptions& command, StudyOptions opt
   options.cancelled = [] { return InterruptWatch::signal_number() != 0; };
   options.progress = [&](const StudyProgress& progress) { bar.show(progress); };
   std::vector<std::string> warnings;
-  const StudyRun result = run_study(study, options, searches_in(options.folder, warnings));
+  const StudyRun result = run_study(study, options, searches_in(study, options.folder, warnings));
   bar.wipe();
   for (const std::string& warning : warnings) complain(fmt::format("warning: {}\n", warning));
   if (result.complete() && options.shards == 1) {
@@ -139,6 +149,10 @@ int run(const Study& study, const StudyCommandOptions& command, StudyOptions opt
 }  // namespace
 
 int study_command(const StudyCommandOptions& command) {
+  if (command.schema) {
+    print(study_schema());
+    return exit_done;
+  }
   const std::optional<Study> study = load_study(command.study);
   if (!study) return exit_model_error;
   StudyOptions options;

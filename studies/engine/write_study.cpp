@@ -1,5 +1,6 @@
 #include "studies/engine/write_study.h"
 
+#include "studies/engine/bisect_table.h"
 #include "studies/engine/comparison.h"
 #include "studies/engine/plots.h"
 #include "studies/engine/runs_csv.h"
@@ -11,7 +12,7 @@ namespace flyball {
 
 namespace fs = std::filesystem;
 
-StudyResults write_study(const Study& study, const StudyRun& run, const fs::path& folder) {
+StudyResults write_study(const Study& study, const StudyRun& run, const fs::path& folder, int threads) {
   const RunTable table(study, run.cases);
   const Store store(store_file(folder), Store::Mode::read);
   const StudyData data{study, table, store};
@@ -39,8 +40,17 @@ StudyResults write_study(const Study& study, const StudyRun& run, const fs::path
     results.tables += '\n' + requirements_text(data, requirements);
     results.violations = violations(data, requirements);
   }
+  Evaluator evaluator(study.models);
+  if (!study.bisections.empty()) {
+    std::vector<BisectResult> limits;
+    EvaluatorOptions options;
+    options.threads = threads;
+    for (const BisectDefinition& bisection : study.bisections)
+      limits.push_back(run_bisect(study, bisection, run.cases, evaluator, options));
+    write("bisections.csv", [&](const fs::path& file) { write_file(file, bisections_csv(study, limits)); });
+    results.tables += '\n' + bisections_text(study, limits);
+  }
   if (!study.plots.empty()) {
-    Evaluator evaluator(study.models);
     const ResultFiles plots = write_plots(data, evaluator, folder);
     files.insert(files.end(), plots.files.begin(), plots.files.end());
     results.written.warnings = plots.warnings;

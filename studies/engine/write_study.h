@@ -19,8 +19,9 @@ struct StudyResults {
 };
 
 /// Writes the tables, figures and metadata of a complete study into its folder: runs.csv, summary.csv,
-/// comparison.csv where there are several cases and samples, requirements.csv, plots, and study.json as the
-/// last. The same study gives the same bytes, however it came about. Throws OutputError.
-StudyResults write_study(const Study& study, const StudyRun& run, const std::filesystem::path& folder);
+/// comparison.csv where there are several cases and samples, requirements.csv, bisections.csv, plots, and
+/// study.json as the last. The same study gives the same bytes, however it came about. Throws OutputError.
+StudyResults write_study(const Study& study, const StudyRun& run, const std::filesystem::path& folder,
+                         int threads = 1);
 
 }  // namespace flyball
