@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -13,6 +15,8 @@
 #include "benchmarks/table.h"
 #include "solvers/lane_simulator.h"
 #include "solvers/parameters.h"
+#include "studies/engine/run_study.h"
+#include "studies/file.h"
 
 namespace flyball::bench {
 namespace {
@@ -134,6 +138,54 @@ Contender one_by_one(double rtol, double atol) {
   return result;
 }
 
+/// Where a study is kept while it is measured.
+class Folder {
+ public:
+  Folder() : path_(std::filesystem::temp_directory_path() / fmt::format("flyball-sweep-{}", ::getpid())) {}
+  ~Folder() {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  const std::filesystem::path& empty() const {
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directory(path_);
+    return path_;
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The sweep as people run it: from a study in memory to all its runs in the store of its folder.
+Contender as_study(double rtol, double atol, int threads) {
+  Diagnostics diagnostics(FLYBALL_SOURCE_DIR "/studies/benchmarks/sweep.toml");
+  auto study =
+      std::make_shared<std::optional<Study>>(read_study(flyball::read_file(diagnostics.file()), diagnostics));
+  if (!*study) throw std::runtime_error(to_string(diagnostics.sorted().at(0)));
+  (*study)->scenarios[0].settings = {{"simulation.rtol", rtol}, {"simulation.atol", atol}};
+  auto folder = std::make_shared<Folder>();
+  Contender result;
+  result.run = [=] {
+    StudyOptions options;
+    options.folder = folder->empty();
+    options.threads = threads;
+    if (!run_study(**study, options, {}).complete()) throw std::runtime_error("the study is not complete");
+  };
+  result.result = [=] {
+    std::vector<double> costs;
+    Store(store_file(folder->path()), Store::Mode::read).read(0, runs, [&](const StoredRun& run) {
+      costs.push_back(run.record.metrics.at(0));
+    });
+    return costs;
+  };
+  result.rate_evaluations = [] { return 0L; };
+  return result;
+}
+
 Workload workload(const std::string& name, std::function<Contender(double, double)> ours) {
   Workload w;
   w.name = name;
@@ -170,6 +222,8 @@ void add_sweep(std::vector<Workload>& workloads) {
     return in_lanes(rtol, atol, {.isa = Isa::baseline});
   }));
   workloads.push_back(workload("W5 sweep, one by one", one_by_one));
+  workloads.push_back(
+      workload("W5 sweep, as a study", [](double rtol, double atol) { return as_study(rtol, atol, 1); }));
 }
 
 void print_sweep_on_all_cores() {
@@ -188,6 +242,10 @@ void print_sweep_on_all_cores() {
       "{:<24}twin {:.3f} s, {:.3f} s of processors; Flyball {:.3f} s, "
       "{:.3f} s of processors\n",
       fmt::format("W5 on {} cores", threads), hand.wall, hand.processor, lanes.wall, lanes.processor);
+  const Times one = times_of(as_study(1e-6, 1e-8, 1).run);
+  const Times all = times_of(as_study(1e-6, 1e-8, threads).run);
+  fmt::print("{:<24}one thread {:.3f} s, {} threads {:.3f} s: {:.2f} times as fast\n", "W5 as a study",
+             one.wall, threads, all.wall, one.wall / all.wall);
 }
 
 }  // namespace flyball::bench

@@ -52,18 +52,20 @@ std::size_t legend_width(const Figure& figure) {
   return std::min<std::size_t>(width, 40);
 }
 
-std::string panel_script(const Panel& panel, bool last) {
+std::string panel_script(const Panel& panel, const std::string& x_label) {
   const bool legend = has_legend(panel);
   std::string script = fmt::format("\nset ylabel {} noenhanced\n", gnuplot_quoted(panel.label));
-  if (last) script += "set xlabel 'time [s]'\nset format x '%g'\n";
+  if (!x_label.empty())
+    script += fmt::format("set xlabel {} noenhanced\nset format x '%g'\n", gnuplot_quoted(x_label));
   script += "plot";
   for (const Curve& curve : panel.curves) {
     const bool is_first = &curve == &panel.curves.front();
     const std::string value = curve.factor == 1.0 ? fmt::format("{}", curve.column)
                                                   : fmt::format("(${}*{})", curve.column, curve.factor);
-    script += fmt::format("{}{} using 1:{} skip 1 with {} {}", is_first ? " " : ", \\\n     ",
-                          gnuplot_quoted(curve.csv), value, curve.points ? "points pt 7 ps 0.4" : "lines",
-                          legend ? "title " + gnuplot_quoted(curve.label) : "notitle");
+    script +=
+        fmt::format("{}{} using {}:{} skip 1 with {} {}", is_first ? " " : ", \\\n     ",
+                    gnuplot_quoted(curve.csv), curve.x, value, curve.points ? "points pt 7 ps 0.4" : "lines",
+                    legend ? "title " + gnuplot_quoted(curve.label) : "notitle");
   }
   return script + '\n';
 }
@@ -123,7 +125,8 @@ std::string gnuplot_script(const Figure& figure, const std::string& stem) {
   // Panels with and without a legend keep one width.
   script += fmt::format("set lmargin 11\nset rmargin {}\n", legend_width(figure));
   if (panels > 1) script += "set format x ''\n";
-  for (const Panel& panel : figure.panels) script += panel_script(panel, &panel == &figure.panels.back());
+  for (const Panel& panel : figure.panels)
+    script += panel_script(panel, &panel == &figure.panels.back() ? figure.x_label : "");
   return script + "\nunset multiplot\n";
 }
 

@@ -7,12 +7,13 @@
 
 namespace flyball {
 
-/// One line of a figure: a column of a CSV file over its first column.
+/// One line of a figure: a column of a CSV file over another one.
 struct Curve {
   std::string csv;  // file name, in the folder of the script
   int column = 2;   // counted from 1, as gnuplot counts
   std::string label;
   double factor = 1.0;  // from SI to the unit of the panel
+  int x = 1;            // the column that it is drawn over
   bool points = false;  // instead of a line
 };
 
@@ -21,11 +22,12 @@ struct Panel {
   std::vector<Curve> curves;
 };
 
-/// Panels below each other, with one axis of time [s].
+/// Panels below each other, with one horizontal axis.
 struct Figure {
   std::string title;
   std::vector<Panel> panels;
   double end = 0.0;  // of the axis of time; 0: as far as the data go
+  std::string x_label = "time [s]";
 };
 
 /// A figure of all columns of a result: one panel a unit, in the order of the columns.

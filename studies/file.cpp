@@ -120,18 +120,39 @@ TemporaryFile::TemporaryFile(const fs::path& beside) : path_(name_beside(beside)
 
 TemporaryFile::~TemporaryFile() { ::unlink(path_.c_str()); }
 
-void write_file(const fs::path& file, std::string_view content) {
-  const fs::path target = destination(file);
-  const TemporaryFile part(target);
-  Descriptor descriptor(part.path(), create);
-  if (descriptor.get() < 0) throw OutputError(file, "cannot be written", errno);
-  keep_mode(descriptor.get(), target);
-  if (!write_all(descriptor.get(), content) || !descriptor.sync() || !descriptor.close() ||
-      retried([&] { return ::rename(part.path().c_str(), target.c_str()); }) != 0) {
-    throw OutputError(file, "cannot be written", errno);
+struct NewFile::Part {
+  explicit Part(const fs::path& file)
+      : target(destination(file)), name(target), descriptor(name.path(), create) {}
+  fs::path target;
+  TemporaryFile name;
+  Descriptor descriptor;
+};
+
+NewFile::NewFile(const fs::path& file) : file_(file), part_(std::make_unique<Part>(file)) {
+  if (part_->descriptor.get() < 0) throw OutputError(file, "cannot be written", errno);
+  keep_mode(part_->descriptor.get(), part_->target);
+}
+
+NewFile::~NewFile() = default;
+
+void NewFile::write(std::string_view text) {
+  if (!write_all(part_->descriptor.get(), text)) throw OutputError(file_, "cannot be written", errno);
+}
+
+void NewFile::commit() {
+  const fs::path& target = part_->target;
+  if (!part_->descriptor.sync() || !part_->descriptor.close() ||
+      retried([&] { return ::rename(part_->name.path().c_str(), target.c_str()); }) != 0) {
+    throw OutputError(file_, "cannot be written", errno);
   }
   const int error = sync_folder(folder_of(target));
-  if (error != 0) throw OutputError(file, "its folder cannot be synchronised", error);
+  if (error != 0) throw OutputError(file_, "its folder cannot be synchronised", error);
+}
+
+void write_file(const fs::path& file, std::string_view content) {
+  NewFile new_file(file);
+  new_file.write(content);
+  new_file.commit();
 }
 
 void require_writable(const fs::path& file) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -26,6 +27,25 @@ std::string read_file(const std::filesystem::path& file, std::size_t most = SIZE
 /// Writes a file whole or not at all: a reader, or a crash at any time, sees the old content or the new.
 /// Throws OutputError; the old file is then as it was.
 void write_file(const std::filesystem::path& file, std::string_view content);
+
+/// A file that is written piece by piece beside its place, and takes it when it is whole. All throw
+/// OutputError.
+class NewFile {
+ public:
+  explicit NewFile(const std::filesystem::path& file);
+  ~NewFile();
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+
+  void write(std::string_view text);
+  /// The old file, if there is one, is replaced; without this call it stays.
+  void commit();
+
+ private:
+  struct Part;
+  std::filesystem::path file_;
+  std::unique_ptr<Part> part_;
+};
 
 /// Throws the OutputError that `write_file` would throw at its start, before a long run is spent on it.
 void require_writable(const std::filesystem::path& file);

@@ -5,17 +5,19 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <new>
 #include <sstream>
+#include <thread>
 
 #include "solvers/stepper.h"
 #include "studies/file.h"
 #include "studies/fit/loss.h"
+#include "studies/quantity_text.h"
 #include "studies/versions.h"
 #include "tools/commands.h"
 #include "tools/console.h"
-#include "tools/quantity_argument.h"
 
 namespace flyball {
 namespace {
@@ -24,7 +26,7 @@ namespace {
 auto checked(const std::string& option, auto&& parse) {
   try {
     return parse();
-  } catch (const UsageError& error) {
+  } catch (const std::invalid_argument& error) {
     throw CLI::ValidationError(option, error.what());
   }
 }
@@ -306,6 +308,70 @@ CLI::App* add_blocks(CLI::App& app, BlocksOptions& options) {
   return command;
 }
 
+void add_merge(CLI::App& study, MergeOptions& options) {
+  CLI::App* command = study.add_subcommand("merge", "Join the parts of a study that --shard ran");
+  command->add_option("OUTPUT", options.output, "Folder of the whole study")->required()->type_name("DIR");
+  command->add_option("PART", options.parts, "Folders of its parts")->required()->type_name("DIR");
+  command->footer(
+      "What is there stays. Then the study itself writes the tables, and runs what is missing.\n\nExample:\n"
+      "  flyball study merge results part-1 part-2\n  flyball study motor.toml --output results");
+}
+
+void add_slurm(CLI::App& study, SlurmOptions& options) {
+  CLI::App* command = study.add_subcommand("slurm", "Print a script that runs a study as an array of jobs");
+  command->add_option("STUDY", options.study, "Study file")->required()->type_name("FILE");
+  command->add_option("-o,--output", options.output, "Folder of the whole study")->type_name("DIR");
+  command->add_option("--shards", options.shards, "Parts, a job each")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--threads", options.threads, "Threads of a job")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--program", options.program, "Where the jobs find this program")
+      ->capture_default_str();
+  command->footer("Example:\n  flyball study slurm motor.toml --shards 32 >job.sh");
+}
+
+/// "2/8"
+void read_shard(const std::string& text, StudyCommandOptions& options) {
+  const char *at = text.data(), *end = text.data() + text.size();
+  const auto first = std::from_chars(at, end, options.shard);
+  const bool split = first.ptr != at && first.ptr != end && *first.ptr == '/';
+  const auto second = split ? std::from_chars(first.ptr + 1, end, options.shards) : first;
+  if (split && second.ec == std::errc() && second.ptr == end && options.shard >= 1 &&
+      options.shard <= options.shards) {
+    return;
+  }
+  throw CLI::ValidationError("--shard", fmt::format("expected a part such as 2/8, found \"{}\"", text));
+}
+
+CLI::App* add_study(CLI::App& app, StudyCommandOptions& options) {
+  CLI::App* command = app.add_subcommand("study", "Do what a study file holds: compare, sweep, sample, fit");
+  command->add_option("STUDY", options.study, "Study file")->type_name("FILE");
+  command->add_option("-o,--output", options.output, "Folder of all results; without it, STUDY-results here")
+      ->type_name("DIR");
+  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  command->add_option("--threads", options.threads, "Threads; without it, all that the machine has")
+      ->check(CLI::PositiveNumber)
+      ->type_name("NUMBER");
+  command
+      ->add_option_function<std::string>(
+          "--shard", [&options](const std::string& text) { read_shard(text, options); },
+          "Run one of several equal parts only; join them with \"study merge\"")
+      ->type_name("K/N");
+  command->add_flag("--status", options.status, "Tell what is finished, and do nothing");
+  command->add_flag("--schema", options.schema, "Print the JSON Schema of study files, for editors");
+  command->add_flag("--json", options.json, "Print the outcome as JSON");
+  command->add_flag("-q,--quiet", options.quiet, "Print errors only");
+  command->require_subcommand(0, 1);
+  command->footer(
+      "A study that was interrupted, or killed, goes on when the same command is given again.\nExit status 1 "
+      "when "
+      "a requirement does not hold.\n\nExample:\n  flyball study studies/classic/pid_tuning.toml --output "
+      "results");
+  return command;
+}
+
 /// CLI11 writes help and errors to the streams that it is given.
 int explain(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out, err;
@@ -325,6 +391,10 @@ int parse_and_run(int argc, const char* const* argv) {
   FormatOptions format;
   DiffOptions diff;
   BlocksOptions blocks;
+  StudyCommandOptions study;
+  MergeOptions merge;
+  SlurmOptions slurm;
+  slurm.program = argv[0];
   const CLI::App* run_app = add_run(app, run);
   const CLI::App* check_app = add_check(app, check);
   const CLI::App* graph_app = add_graph(app, graph);
@@ -333,6 +403,9 @@ int parse_and_run(int argc, const char* const* argv) {
   const CLI::App* format_app = add_format(app, format);
   const CLI::App* diff_app = add_diff(app, diff);
   add_blocks(app, blocks);
+  CLI::App* study_app = add_study(app, study);
+  add_merge(*study_app, merge);
+  add_slurm(*study_app, slurm);
   app.set_version_flag("--version", "flyball " + flyball_version());
   app.require_subcommand(1);
   app.footer("Example:\n  flyball run MODEL.toml --output result.csv\n\nflyball COMMAND --help tells more.");
@@ -348,6 +421,13 @@ int parse_and_run(int argc, const char* const* argv) {
   if (report_app->parsed()) return report_command(report);
   if (format_app->parsed()) return format_command(format);
   if (diff_app->parsed()) return diff_command(diff);
+  if (study_app->got_subcommand("merge")) return merge_command(merge);
+  if (study_app->got_subcommand("slurm")) return slurm_command(slurm);
+  if (study_app->parsed()) {
+    if (study.study.empty() && !study.schema)
+      throw UsageError("flyball study: expected the name of a study file");
+    return study_command(study);
+  }
   return blocks_command(blocks);
 }
 

@@ -94,6 +94,29 @@ struct FitOptions {
   bool quiet = false;
 };
 
+struct StudyCommandOptions {
+  std::string study;
+  std::string output;  // folder; empty: named after the study
+  int threads = 1;
+  int shard = 1, shards = 1;
+  bool status = false;
+  bool schema = false;  // print the JSON Schema of study files
+  bool json = false;
+  bool quiet = false;
+};
+
+struct MergeOptions {
+  std::string output;
+  std::vector<std::string> parts;
+};
+
+struct SlurmOptions {
+  std::string study;
+  std::string output;
+  std::string program;
+  int shards = 16, threads = 4;
+};
+
 // The subcommands. Each returns the exit status; FileError and UsageError are left to the caller.
 int run_command(const RunOptions& options);
 int check_command(const CheckOptions& options);
@@ -103,5 +126,8 @@ int fit_command(const FitOptions& options);
 int graph_command(const GraphOptions& options);
 int report_command(const ReportOptions& options);
 int blocks_command(const BlocksOptions& options);
+int study_command(const StudyCommandOptions& options);
+int merge_command(const MergeOptions& options);
+int slurm_command(const SlurmOptions& options);
 
 }  // namespace flyball

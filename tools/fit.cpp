@@ -10,13 +10,13 @@
 #include "studies/file.h"
 #include "studies/fit/fit_files.h"
 #include "studies/parameter_unit.h"
+#include "studies/quantity_text.h"
 #include "tools/commands.h"
 #include "tools/console.h"
 #include "tools/fit_summary.h"
 #include "tools/interrupt.h"
 #include "tools/json.h"
 #include "tools/model_file.h"
-#include "tools/quantity_argument.h"
 
 namespace flyball {
 namespace {
@@ -54,7 +54,7 @@ class SoughtReader {
     const std::string unit = parameter_unit(plan_, name);
     try {
       return parse_quantity(text, unit.empty() ? "any" : unit);
-    } catch (const UsageError& error) {
+    } catch (const std::invalid_argument& error) {
       throw UsageError(fmt::format("{}: {}: {}", option, name, error.what()));
     }
   }

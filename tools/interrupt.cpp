@@ -1,9 +1,13 @@
 #include "tools/interrupt.h"
 
+#include <atomic>
+
 namespace flyball {
 namespace {
 
-volatile std::sig_atomic_t received = 0;
+/// Of the process; threads that work look at it.
+std::atomic<int> received = 0;
+static_assert(std::atomic<int>::is_always_lock_free);  // else a handler may not write it
 
 void note(int number) { received = number; }
 

@@ -20,12 +20,16 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 struct Wishes {
   bool log = false;
   bool end_row = false;
+  bool statistics = false;
 
   Wishes(const StudyModel& model, bool keep_log) {
     const auto reads_end = [](const auto& question) { return question.reads_end_only(); };
     log = keep_log || !std::ranges::all_of(model.metrics, reads_end) ||
           !std::ranges::all_of(model.requirements, reads_end);
     end_row = !model.metrics.empty() || !model.requirements.empty();
+    const auto reads_statistics = [](const auto& question) { return question.reads_statistics(); };
+    statistics = std::ranges::any_of(model.metrics, reads_statistics) ||
+                 std::ranges::any_of(model.requirements, reads_statistics);
   }
 };
 
@@ -71,7 +75,12 @@ class Worker {
   std::optional<std::vector<RunRecord>> run(std::span<const RunRequest> group) {
     std::vector<RunRecord> records(group.size());
     for (Part& part : parts_of(group, records)) {
-      std::vector<LaneOutcome> outcomes = run(part);
+      std::vector<LaneOutcome> outcomes;
+      try {
+        outcomes = run(part);
+      } catch (const std::invalid_argument& error) {
+        for (const std::size_t k : part.members) records[k] = failure(models_[part.model], error.what());
+      }
       for (std::size_t k = 0; k < outcomes.size(); ++k) {
         if (outcomes[k].cancelled) return std::nullopt;
         RunRecord& record = records[part.members[k]];
@@ -113,8 +122,11 @@ class Worker {
   std::vector<LaneOutcome> run(const Part& part) {
     LaneSimulator& simulator = simulator_of(part);
     // Four lanes cost more than one run alone.
-    if (part.inputs.size() == 1) return {simulator.run_alone(part.inputs[0])};
-    return simulator.run(part.inputs);
+    const bool alone = part.inputs.size() == 1 || Wishes(models_[part.model], false).statistics;
+    if (!alone) return simulator.run(part.inputs);
+    std::vector<LaneOutcome> outcomes;
+    for (const LaneInput& input : part.inputs) outcomes.push_back(simulator.run_alone(input));
+    return outcomes;
   }
 
   LaneSimulator& simulator_of(const Part& part) {

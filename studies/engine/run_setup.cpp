@@ -7,6 +7,7 @@
 
 #include "models/language/messages.h"
 #include "solvers/stepper.h"
+#include "studies/quantity_text.h"
 
 namespace flyball {
 namespace {
@@ -25,20 +26,23 @@ void require_fitting_method(const std::string& method, const Plan& plan) {
   throw std::invalid_argument(message::discrete_with_states(states));
 }
 
-double above_zero(const Setting& setting) {
-  const double* value = std::get_if<double>(&setting.value);
-  if (value == nullptr)
-    throw std::invalid_argument(
-        fmt::format("{} takes a number, not \"{}\"", setting.name, std::get<std::string>(setting.value)));
-  if (*value > 0.0) return *value;
-  throw std::invalid_argument(fmt::format("{} is {}, and must be above 0", setting.name, *value));
+/// The text of a setting as it would stand in a file.
+std::string text_of(const Setting& setting) {
+  const double* number = std::get_if<double>(&setting.value);
+  return number != nullptr ? fmt::format("{}", *number) : std::get<std::string>(setting.value);
 }
 
-Rational interval(const Setting& setting) {
-  const double value = above_zero(setting);
-  if (const auto exact = nearest_fraction(value)) return *exact;
-  throw std::invalid_argument(
-      fmt::format("{} is {}, which is no exact time such as 0.01 s", setting.name, value));
+/// Calls `parse` with text and unit, and turns its complaint into one about the setting.
+auto parsed(const Setting& setting, const std::string& unit, auto&& parse) {
+  try {
+    return parse(text_of(setting), unit);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", setting.name, error.what()));
+  }
+}
+
+double above_zero(const Setting& setting, const std::string& unit) {
+  return parsed(setting, unit, parse_positive);
 }
 
 void apply(const Setting& setting, const Plan& plan, SimulationSettings& settings) {
@@ -49,17 +53,17 @@ void apply(const Setting& setting, const Plan& plan, SimulationSettings& setting
     require_fitting_method(*method, plan);
     settings.method = *method;
   } else if (key == "rtol") {
-    settings.rtol = above_zero(setting);
+    settings.rtol = above_zero(setting, "1");
   } else if (key == "atol") {
-    settings.atol = above_zero(setting);
+    settings.atol = above_zero(setting, "1");
   } else if (key == "stop") {
-    settings.stop = above_zero(setting);
+    settings.stop = above_zero(setting, "s");
   } else if (key == "step") {
-    settings.step = above_zero(setting);
+    settings.step = above_zero(setting, "s");
   } else if (key == "max_step") {
-    settings.max_step = above_zero(setting);
+    settings.max_step = above_zero(setting, "s");
   } else if (key == "log_interval") {
-    settings.log_interval = interval(setting);
+    settings.log_interval = parsed(setting, "s", parse_positive_exact);
   } else {
     throw std::invalid_argument(fmt::format("there is no setting {} of a simulation", setting.name));
   }
@@ -77,11 +81,6 @@ std::vector<Setting> effective(std::span<const Setting> settings) {
     }
   }
   return result;
-}
-
-std::string text_of(const Setting& setting) {
-  const double* number = std::get_if<double>(&setting.value);
-  return number != nullptr ? fmt::format("{}", *number) : std::get<std::string>(setting.value);
 }
 
 /// Names and values, apart by bytes that no text holds.

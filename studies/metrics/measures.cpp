@@ -191,7 +191,9 @@ std::vector<Measure> value_measures() {
 
 std::vector<Measure> statistics_measures() {
   const auto of = [](std::string_view name, std::string_view doc, double (*value)(const Input&)) {
-    return Measure{name, doc, {}, 0, 0, value};
+    Measure measure{name, doc, {}, 0, 0, value};
+    measure.reads_statistics = true;
+    return measure;
   };
   return {
       of("steps", "accepted steps of the solver",

@@ -57,6 +57,7 @@ struct Measure {
   bool reads_end = false;  // nothing but the last row
   /// Where there is no value: the signal, on the same grid.
   std::vector<double> (*series)(const MeasureInput& input) = nullptr;
+  bool reads_statistics = false;
 
   /// "settling(y[, band, final, initial])"
   std::string signature() const;

@@ -41,4 +41,9 @@ bool Metric::reads_end_only() const {
   return std::ranges::all_of(program_->calls, &MeasureCall::reads_end_only);
 }
 
+bool Metric::reads_statistics() const {
+  return std::ranges::any_of(program_->calls,
+                             [](const MeasureCall& call) { return call.measure->reads_statistics; });
+}
+
 }  // namespace flyball

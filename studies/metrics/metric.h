@@ -29,6 +29,8 @@ class Metric {
   const std::string& text() const;
   /// Whether the last row of the log is all that it reads, and no statistics.
   bool reads_end_only() const;
+  /// Whether it asks what the solver did. Runs in lockstep have no statistics of their own.
+  bool reads_statistics() const;
 
  private:
   struct Program;

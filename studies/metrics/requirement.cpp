@@ -62,4 +62,9 @@ bool Requirement::reads_end_only() const {
          std::ranges::all_of(program_->clauses, is_of_numbers);
 }
 
+bool Requirement::reads_statistics() const {
+  return std::ranges::any_of(program_->calls,
+                             [](const MeasureCall& call) { return call.measure->reads_statistics; });
+}
+
 }  // namespace flyball

@@ -34,6 +34,8 @@ class Requirement {
   const std::string& text() const;
   const std::string& unit() const;  // of margin and value
   bool reads_end_only() const;
+  /// Whether it asks what the solver did. Runs in lockstep have no statistics of their own.
+  bool reads_statistics() const;
 
  private:
   struct Program;

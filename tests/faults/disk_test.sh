@@ -46,7 +46,32 @@ for room in 200 150 100 75 60 40 8 0; do
 done
 ((status == 5)) || fail "the disk was not full"
 
-rm -f disk/*
+# A study that finds the disk full says so; with room, it goes on to the same results.
+cat >arc_study.toml <<TOML
+flyball = 1
+[study]
+model = "arc.toml"
+[sweep]
+K_gamma = { from = 0.1, to = 4.0, points = 400 }
+[metrics]
+last = "final(H)"
+TOML
+cp "$arc" arc.toml
+expect 0 study arc_study.toml --output reference/study --quiet
+for room in 300 150 60 20 0; do
+  rm -rf disk/*
+  head -c 3M /dev/zero >disk/filler 2>/dev/null
+  truncate -s "-${room}K" disk/filler
+  expect 5 study arc_study.toml --output disk/study --quiet
+  says err "No space left on device"
+  rm disk/filler
+  expect 0 study arc_study.toml --output disk/study --quiet
+  for result in runs.csv summary.csv study.json; do
+    cmp -s "disk/study/$result" "reference/study/$result" || fail "$last: $result differs"
+  done
+done
+
+rm -rf disk/*
 sed 's/ = /=/' "$arc" >disk/untidy.toml
 cp disk/untidy.toml .
 mount -o remount,ro disk || exit 77

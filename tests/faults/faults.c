@@ -1,7 +1,8 @@
 /* Preloaded into flyball: makes one of its calls to the system fail.
  *
  *   FAULT_FOLDER   calls that concern files below this folder are counted, no others
- *   FAULT_CALL     open, read, write, fsync, rename, close, unlink or mkdir
+ *   FAULT_CALL     open, read, write, fsync, rename, close, unlink, mkdir or truncate; those of a position and
+ *                  of a data base's kind (pwrite, fdatasync) count as the plain ones
  *   FAULT_AT       the number of the call that fails, from 1
  *   FAULT_ERRNO    its error number; 0: a write that takes half of the bytes
  *   FAULT_MODE     once, or ever: all calls from that one on
@@ -89,6 +90,21 @@ ssize_t write(int fd, const void *buffer, size_t size) {
   if (!fails("write", concerns_descriptor(fd))) return NEXT(write)(fd, buffer, size);
   return errno == 0 ? NEXT(write)(fd, buffer, (size + 1) / 2) : -1;
 }
+
+ssize_t pread64(int fd, void *buffer, size_t size, off64_t at) {
+  return fails("read", concerns_descriptor(fd)) ? -1 : NEXT(pread64)(fd, buffer, size, at);
+}
+
+ssize_t pwrite64(int fd, const void *buffer, size_t size, off64_t at) {
+  if (!fails("write", concerns_descriptor(fd))) return NEXT(pwrite64)(fd, buffer, size, at);
+  return errno == 0 ? NEXT(pwrite64)(fd, buffer, (size + 1) / 2, at) : -1;
+}
+
+int ftruncate64(int fd, off64_t size) {
+  return fails("truncate", concerns_descriptor(fd)) ? -1 : NEXT(ftruncate64)(fd, size);
+}
+
+int fdatasync(int fd) { return fails("fsync", concerns_descriptor(fd)) ? -1 : NEXT(fdatasync)(fd); }
 
 int fsync(int fd) { return fails("fsync", concerns_descriptor(fd)) ? -1 : NEXT(fsync)(fd); }
 
