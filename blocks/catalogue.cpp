@@ -69,7 +69,19 @@
   BLOCK(robot, PoseIntegrator)            \
   BLOCK(robot, Unicycle)                  \
   BLOCK(robot, MecanumDrive)              \
-  BLOCK(robot, MecanumInverse)
+  BLOCK(robot, MecanumInverse)            \
+  BLOCK(sensors, Encoder)                 \
+  BLOCK(sensors, EncoderOdometry)         \
+  BLOCK(sensors, Gyro)                    \
+  BLOCK(sensors, LandmarkSensor)          \
+  BLOCK(sensors, LandmarkCorrection)      \
+  BLOCK(navigation, LineNavigation)       \
+  BLOCK(navigation, ArcNavigation)        \
+  BLOCK(navigation, PathSequencer)        \
+  BLOCK(navigation, DeviationPID)         \
+  BLOCK(navigation, WheelSpeedAllocation) \
+  BLOCK(navigation, PurePursuit)          \
+  BLOCK(navigation, Stanley)
 
 #include <stdexcept>
 #include <unordered_map>

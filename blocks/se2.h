@@ -30,9 +30,6 @@ double sinc_value(double x);
 double sinc_slope(double x);
 double saturated_asin_value(double x);
 double saturated_asin_slope(double x);
-double whole_value(double x);
-double sign_value(double x);
-double no_slope(double x);
 
 /// sin(x)/x, and 1 at 0.
 template <class T>
@@ -46,18 +43,6 @@ T saturated_asin(const T& x) {
   return function_of(x, saturated_asin_value, saturated_asin_slope);
 }
 
-/// x without its fraction, towards 0.
-template <class T>
-T whole_part(const T& x) {
-  return function_of(x, whole_value, no_slope);
-}
-
-/// 1, 0 or -1.
-template <class T>
-T sign_of(const T& x) {
-  return function_of(x, sign_value, no_slope);
-}
-
 template <class T>
 struct Point {
   T x, y;
@@ -67,6 +52,11 @@ struct Point {
 template <class H>
 auto pose_in(auto& v, const Pose<H>& at) {
   return Pose<std::decay_t<decltype(v.time())>>{v[at.x], v[at.y], v[at.theta]};
+}
+
+template <class H>
+auto point_in(auto& v, H x, H y) {
+  return Point<std::decay_t<decltype(v.time())>>{v[x], v[y]};
 }
 
 /// How far a body has gone, in its own frame, and how far it has turned.
@@ -95,6 +85,11 @@ Point<T> seen_from(const Pose<T>& body, const Point<T>& point) {
   const T dx = point.x - body.x, dy = point.y - body.y;
   const T c = cos(body.theta), s = sin(body.theta);
   return {c * dx + s * dy, c * dy - s * dx};
+}
+
+template <class T>
+T distance_between(const Point<T>& a, const Point<T>& b) {
+  return hypot(b.x - a.x, b.y - a.y);
 }
 
 /// How far a point is to the right of the line from a to b. Not a number when these are one point.
