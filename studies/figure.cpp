@@ -13,11 +13,6 @@ constexpr std::size_t longest_legend = 12;
 // More panels than this are too many to look at.
 constexpr long most_single_panels = 6;
 
-std::string axis_label(const std::string& name, const std::string& unit) {
-  if (unit.empty() || unit == "any" || unit == "1") return name;
-  return name.empty() ? fmt::format("[{}]", unit) : fmt::format("{} [{}]", name, unit);
-}
-
 constexpr std::string_view style = R"(if (!exists("format")) format = 'svg'
 if (!exists("figure")) figure = stem . '.' . format
 if (format eq 'png') {{
@@ -66,14 +61,26 @@ std::string panel_script(const Panel& panel, bool last) {
     const bool is_first = &curve == &panel.curves.front();
     const std::string value = curve.factor == 1.0 ? fmt::format("{}", curve.column)
                                                   : fmt::format("(${}*{})", curve.column, curve.factor);
-    script += fmt::format("{}{} using 1:{} skip 1 with lines {}", is_first ? " " : ", \\\n     ",
-                          gnuplot_quoted(curve.csv), value,
+    script += fmt::format("{}{} using 1:{} skip 1 with {} {}", is_first ? " " : ", \\\n     ",
+                          gnuplot_quoted(curve.csv), value, curve.points ? "points pt 7 ps 0.4" : "lines",
                           legend ? "title " + gnuplot_quoted(curve.label) : "notitle");
   }
   return script + '\n';
 }
 
 }  // namespace
+
+std::string axis_label(const std::string& name, const std::string& unit) {
+  if (unit.empty() || unit == "any" || unit == "1") return name;
+  return name.empty() ? fmt::format("[{}]", unit) : fmt::format("{} [{}]", name, unit);
+}
+
+std::string gnuplot_opening(const std::string& stem, int height) {
+  return fmt::format(
+             "# Run in this folder:  gnuplot FILE  or  gnuplot -e \"format = 'png'\" FILE\nstem = {}\n",
+             gnuplot_quoted(stem)) +
+         fmt::format(style, fmt::arg("height", 2 * height), fmt::arg("svg_height", height * 3 / 4));
+}
 
 std::string gnuplot_quoted(const std::string& text) {
   std::string quoted = "'";
@@ -109,10 +116,7 @@ Figure figure_of(const std::vector<LogColumn>& columns, const std::string& title
 std::string gnuplot_script(const Figure& figure, const std::string& stem) {
   const auto panels = static_cast<int>(figure.panels.size());
   const int height = std::max(420, 300 * panels + 120);
-  std::string script =
-      fmt::format("# Run in this folder:  gnuplot FILE  or  gnuplot -e \"format = 'png'\" FILE\nstem = {}\n",
-                  gnuplot_quoted(stem));
-  script += fmt::format(style, fmt::arg("height", 2 * height), fmt::arg("svg_height", height * 3 / 4));
+  std::string script = gnuplot_opening(stem, height);
   if (figure.end > 0.0) script += fmt::format("set xrange [0:{}]\n", figure.end);
   script +=
       fmt::format("set multiplot layout {},1 title {} noenhanced\n", panels, gnuplot_quoted(figure.title));

@@ -13,6 +13,7 @@ struct Curve {
   int column = 2;   // counted from 1, as gnuplot counts
   std::string label;
   double factor = 1.0;  // from SI to the unit of the panel
+  bool points = false;  // instead of a line
 };
 
 struct Panel {
@@ -34,6 +35,12 @@ Figure figure_of(const std::vector<LogColumn>& columns, const std::string& title
 /// A gnuplot script for people to restyle. It is run in its folder and draws STEM.svg, or STEM.png with
 /// `gnuplot -e "format = 'png'"`.
 std::string gnuplot_script(const Figure& figure, const std::string& stem);
+
+/// How every script begins: its terminal, svg or png, of a height in pixels, and its colours.
+std::string gnuplot_opening(const std::string& stem, int height);
+
+/// "name [unit]", or the one of them that there is.
+std::string axis_label(const std::string& name, const std::string& unit);
 
 /// 'text' for gnuplot, which reads nothing in single quotes but the quote itself.
 std::string gnuplot_quoted(const std::string& text);

@@ -6,7 +6,6 @@
 #include "studies/gnuplot.h"
 
 namespace flyball {
-namespace {
 
 namespace fs = std::filesystem;
 
@@ -21,8 +20,6 @@ void draw_figures(const fs::path& script, ResultFiles& written) {
     }
   }
 }
-
-}  // namespace
 
 ResultFiles write_result(const RunResult& result, const RunInputs& inputs, const fs::path& csv) {
   ResultFiles written;

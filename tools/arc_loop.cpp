@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "solvers/workspace.h"
-#include "studies/metrics.h"
+#include "studies/metrics/signal_metrics.h"
 
 namespace flyball {
 namespace {

@@ -12,11 +12,26 @@
 
 namespace flyball {
 
+/// Functions that an expression may call besides those of the language, such as measures of a run.
+class Calls {
+ public:
+  virtual ~Calls() = default;
+  /// Reads the call of `name` from its first argument at `at` to behind its closing parenthesis, and gives
+  /// the name of the operand that stands for its value. Nothing, and `at` not moved, when it has no such
+  /// function. Throws TextError.
+  virtual std::optional<std::string> read(std::string_view name, std::string_view text, std::size_t& at) = 0;
+  /// For suggestions.
+  virtual std::vector<std::string> names() const = 0;
+};
+
 /// The names that an expression may use besides functions and the constants pi and e.
 struct Scope {
   const NameIndex* parameters = nullptr;
   std::span<const std::string> inputs;
   const Scope* outer = nullptr;  // whose names are seen, too
+  Calls* calls = nullptr;
+  /// The names are those of signals: they may have dots, and behind a number a unit comes before them.
+  bool of_signals = false;
 
   bool knows(std::string_view name) const;
   /// All of them in alphabetical order, for suggestions.
@@ -29,6 +44,14 @@ struct Scope {
 /// ("1/3 s"). A unit ends before a name of the scope: with a parameter V, "2 m*V" is 2 m times V.
 /// Throws TextError.
 Formula parse_expression(std::string_view text, const Scope& scope);
+
+enum class Wanted { number, condition };
+
+/// Parses from `at` as far as the text goes on as a number without comparisons, or as a condition, and moves
+/// `at` behind it. A condition becomes a number: 1 where it holds, else 0. Offsets of errors count from the
+/// start of the text. Throws TextError.
+Formula parse_part(std::string_view text, std::size_t& at, const Scope& scope,
+                   Wanted wanted = Wanted::number);
 
 /// The value in SI, comparisons decided by value.
 double evaluate(const Formula& formula, std::span<const double> operands);

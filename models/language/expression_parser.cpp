@@ -38,16 +38,32 @@ struct Part {
 
 class ExpressionParser {
  public:
-  ExpressionParser(std::string_view text, const Scope& scope)
+  ExpressionParser(std::string_view text, const Scope& scope, std::size_t at = 0)
       : text_(text),
         scope_(scope),
-        ends_unit_([&scope](std::string_view name) { return scope.knows(name) || is_reserved(name); }),
-        build_(text) {}
+        ends_unit_([&scope](std::string_view name) {
+          return is_reserved(name) || (!scope.of_signals && scope.knows(name));
+        }),
+        build_(text),
+        at_(at) {}
 
   Formula run() {
     const Part whole = disjunction();
     if (skip_space(); at_ < text_.size()) throw TextError(at_, unexpected());
     number(whole);
+    return build_.finish();
+  }
+
+  Formula run_part(Wanted wanted, std::size_t& behind) {
+    if (wanted == Wanted::number) {
+      number(sum());
+    } else {
+      const int holds = condition(disjunction());
+      const std::size_t offset = build_.node(holds).offset;
+      const int one = whole(1, offset), zero = whole(0, offset);
+      build_.add(Op::choose, offset, holds, one, zero);
+    }
+    behind = at_;
     return build_.finish();
   }
 
@@ -177,9 +193,15 @@ class ExpressionParser {
   }
 
   int call(std::string_view name, std::size_t offset) {
+    if (scope_.calls != nullptr) {
+      std::size_t behind = at_ + 1;
+      if (const auto operand = scope_.calls->read(name, text_, behind)) {
+        at_ = behind;
+        return build_.operand(*operand, offset);
+      }
+    }
     const auto* function = std::ranges::find(functions, name, &Function::name);
-    if (function == functions.end())
-      throw TextError(offset, message::unknown_function(name, function_names()));
+    if (function == functions.end()) throw TextError(offset, message::unknown_function(name, callable()));
     take('(');
     std::vector<int> arguments;
     do {
@@ -195,6 +217,14 @@ class ExpressionParser {
     arguments.resize(3, -1);
     if (function->op == Op::literal) return kinked(name, offset, arguments[0], arguments[1]);
     return build_.add(function->op, offset, arguments[0], arguments[1], arguments[2]);
+  }
+
+  std::vector<std::string> callable() const {
+    std::vector<std::string> all = function_names();
+    if (scope_.calls == nullptr) return all;
+    const std::vector<std::string> more = scope_.calls->names();
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
   }
 
   /// The functions with a kink: each comparison is one that the engine can locate.
@@ -245,9 +275,19 @@ class ExpressionParser {
     if (!take(c)) throw TextError(at_, message::expected_before(c, unexpected()));
   }
   std::string_view take_name() {
-    const std::string_view name = leading_name(text_.substr(at_));
-    at_ += name.size();
-    return name;
+    std::size_t length = leading_name(text_.substr(at_)).size();
+    while (scope_.of_signals && length > 0 && at_ + length < text_.size() && text_[at_ + length] == '.') {
+      const std::size_t more = leading_word(text_.substr(at_ + length + 1));
+      if (more == 0) break;
+      length += 1 + more;
+    }
+    at_ += length;
+    return text_.substr(at_ - length, length);
+  }
+  /// Letters, digits and _: elements of a signal may be numbers.
+  static std::size_t leading_word(std::string_view text) {
+    const auto ends = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_'; };
+    return static_cast<std::size_t>(std::ranges::find_if(text, ends) - text.begin());
   }
   bool take_word(std::string_view word) {
     skip_space();
@@ -274,6 +314,10 @@ Formula parse_expression(std::string_view text, const Scope& scope) {
     return build.finish();
   }
   return ExpressionParser(text, scope).run();
+}
+
+Formula parse_part(std::string_view text, std::size_t& at, const Scope& scope, Wanted wanted) {
+  return ExpressionParser(text, scope, at).run_part(wanted, at);
 }
 
 const std::vector<std::string>& function_names() {

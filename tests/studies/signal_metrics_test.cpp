@@ -1,4 +1,4 @@
-#include "studies/metrics.h"
+#include "studies/metrics/signal_metrics.h"
 
 #include <cmath>
 #include <functional>
