@@ -81,7 +81,18 @@
   BLOCK(navigation, DeviationPID)         \
   BLOCK(navigation, WheelSpeedAllocation) \
   BLOCK(navigation, PurePursuit)          \
-  BLOCK(navigation, Stanley)
+  BLOCK(navigation, Stanley)              \
+  BLOCK(navigation, Waypoints)            \
+  BLOCK(navigation, RoadmapPlanner)       \
+  BLOCK(navigation, WaypointSelector)     \
+  BLOCK(navigation, PoseError)            \
+  BLOCK(navigation, KanayamaTracker)      \
+  BLOCK(navigation, VelocityLimiter)      \
+  BLOCK(navigation, MotorLimiter)         \
+  BLOCK(navigation, StepGenerator)        \
+  BLOCK(navigation, StepperWheelSpeed)    \
+  BLOCK(navigation, CrossTrackError)      \
+  BLOCK(navigation, LinearVelocityError)
 
 #include <stdexcept>
 #include <unordered_map>
