@@ -19,6 +19,7 @@ std::vector<Workload> make_workloads(std::string_view filter) {
   add_sampled(workloads);
   add_chain(workloads);
   add_events(workloads);
+  add_stepper(workloads);
   add_sweep(workloads);
   std::erase_if(workloads, [&](const Workload& w) { return w.name.find(filter) == std::string::npos; });
   return workloads;

@@ -230,10 +230,12 @@ void Simulator::find_end() {
   }
 }
 
+std::string end_reason(const Plan& plan, int slot) {
+  return fmt::format("{}: {}", plan.instance(plan.owner[slot]).name, slot_spec(plan, slot).doc);
+}
+
 std::string Simulator::end_reason() const {
-  if (ended_by_ < 0) return {};
-  return fmt::format("{}: {}", plan_->instance(plan_->owner[ended_by_]).name,
-                     slot_spec(*plan_, ended_by_).doc);
+  return ended_by_ < 0 ? std::string() : flyball::end_reason(*plan_, ended_by_);
 }
 
 void Simulator::watch_progress(double t) {

@@ -22,7 +22,8 @@ namespace flyball {
 struct LogOptions {
   bool enabled = true;
   EventRows event_rows = EventRows::both;
-  std::vector<double> times = {};  // [s], ascending: rows there instead of at SimulationSettings::log_interval
+  std::vector<double> times =
+      {};  // [s], ascending: rows there instead of at SimulationSettings::log_interval
 };
 
 /// What a run did, for its summary and the result's metadata.
@@ -36,6 +37,9 @@ struct RunStatistics {
 
 /// Tolerances and step limits, with their defaults.
 StepperOptions stepper_options(const SimulationSettings& settings);
+
+/// Why a run ends when this held value of Plan::run_ends is no longer 0.
+std::string end_reason(const Plan& plan, int slot);
 
 /// Runs one plan in one workspace: steps, finds events, carries out instants, logs.
 class Simulator {

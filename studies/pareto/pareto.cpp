@@ -15,6 +15,7 @@
 
 #include "studies/parameter_unit.h"
 #include "studies/pareto/front_search.h"
+#include "studies/pareto/mopso.h"
 
 namespace flyball {
 namespace {
@@ -53,6 +54,11 @@ pagmo::algorithm make_algorithm(const ParetoDefinition& definition, unsigned gen
     nspso.set_seed(seed);
     nspso.set_bfe(batch);
     return pagmo::algorithm(nspso);
+  }
+  if (definition.algorithm == "mopso") {
+    Mopso mopso(generations, seed);
+    mopso.set_bfe(batch);
+    return pagmo::algorithm(mopso);
   }
   if (definition.algorithm == "moead") {
     // Each solution is tried on its neighbours as soon as it is there: one evaluation after the other.
