@@ -38,12 +38,4 @@ std::string drawn_diagram(const Plan& plan, const std::filesystem::path& beside,
   return svg.substr(std::min(svg.find("<svg"), svg.size()));
 }
 
-std::string shell_quoted(const std::string& text) {
-  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+,:";
-  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 }  // namespace flyball

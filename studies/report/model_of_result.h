@@ -23,7 +23,4 @@ UnchangedModel find_model(const std::string& file, const std::string& hash,
 std::string drawn_diagram(const Plan& plan, const std::filesystem::path& beside,
                           std::vector<std::string>& warnings);
 
-/// For a shell: in single quotes where it must be.
-std::string shell_quoted(const std::string& text);
-
 }  // namespace flyball

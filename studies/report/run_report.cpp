@@ -8,6 +8,7 @@
 
 #include "studies/figure.h"
 #include "studies/report/model_of_result.h"
+#include "studies/shell.h"
 
 namespace flyball {
 namespace {

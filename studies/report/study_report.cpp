@@ -13,6 +13,7 @@
 #include "studies/report/model_of_result.h"
 #include "studies/report/one_axis.h"
 #include "studies/report/text_table.h"
+#include "studies/shell.h"
 
 namespace flyball {
 namespace {

@@ -8,6 +8,7 @@
 #include "studies/report/run_report.h"
 #include "studies/report/text_table.h"
 #include "studies/report/thinning.h"
+#include "studies/shell.h"
 #include "tests/catch.h"
 #include "tests/studies/temporary_folder.h"
 
