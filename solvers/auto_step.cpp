@@ -8,14 +8,6 @@
 namespace flyball {
 namespace {
 
-// The counts of dopri5.f. Its limit is 3.25, just below the end of stability; but where something that moves
-// drives a stiff part, order reduction holds h |lambda| at half of that, still dozens of times below what BDF
-// can do, while problems that are not stiff stay below 1 but for a few steps (docs/decisions/0016).
-constexpr double stiff_from = 1.5;
-constexpr int stiff_in_all = 15, calm_in_a_row = 6;
-/// While nothing is suspected, a test now and then will do: it costs a twentieth of a step of a few states.
-constexpr int steps_between_tests = 10;
-
 bool is_stiff(const StepMemory& memory) { return std::isfinite(memory.stiff_since); }
 
 }  // namespace
@@ -25,7 +17,7 @@ AutoStep::AutoStep(System<double>& system, const StepperOptions& options)
 
 void AutoStep::restart(double t, const double* x, StepMemory& memory, bool changed) {
   // The first restart begins a run, or goes on from a checkpoint with its counts.
-  if (changed && begun_) memory.stiff_steps = memory.calm_steps = 0;
+  if (changed && begun_) memory.stiffness.restart();
   begun_ = true;
   if (!is_stiff(memory)) {
     end_ = t;
@@ -50,18 +42,13 @@ double AutoStep::step(double limit, StepMemory& memory) {
 }
 
 void AutoStep::test(StepMemory& memory) const {
-  if (memory.stiff_steps == 0 && ++memory.untested_steps < steps_between_tests) return;
-  memory.untested_steps = 0;
+  if (!memory.stiffness.due()) return;
   // At max_step neither stability nor accuracy is the limit, and another method would not do better.
-  const bool limited = memory.size < options_.max_step;
-  if (limited && explicit_.step_times_stiffness() > stiff_from) {
-    memory.calm_steps = 0;
-    if (++memory.stiff_steps < stiff_in_all) return;
-    memory.stiff_since = end_;
-    memory.stiffest_state = explicit_.limiting_state();
-  } else if (memory.stiff_steps > 0 && ++memory.calm_steps == calm_in_a_row) {
-    memory.stiff_steps = memory.calm_steps = 0;
-  }
+  const bool limited =
+      memory.size < options_.max_step && explicit_.step_times_stiffness() > StiffnessCount::limit;
+  if (!memory.stiffness.add(limited)) return;
+  memory.stiff_since = end_;
+  memory.stiffest_state = explicit_.limiting_state();
 }
 
 StepperStatistics AutoStep::statistics() const {

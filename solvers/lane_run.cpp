@@ -17,10 +17,10 @@ class LaneRunOn final : public LaneRun {
       : plan_(plan),
         log_options_(log),
         options_(stepper_options(settings)),
-        asked_(settings),
+        asked_(settings, log.times),
         stop_(settings.stop),
         group_(plan),
-        stepper_(group_, options_),
+        stepper_(group_, options_, settings.method == "auto"),
         events_(group_, stepper_),
         instant_(group_, events_),
         ticks_(plan.hit_rates.size()),
@@ -39,19 +39,30 @@ class LaneRunOn final : public LaneRun {
     close_events_[lane] = 0;
   }
 
-  void run() override {
+  bool run(const std::function<bool()>& cancelled) override {
+    constexpr int steps_between = 256;
     log_position_ = 0;
-    running_ = false;
+    ended_ = running_ = false;
     instant_.ask_schedules();
     instant(0.0, next_tick(), false);
     running_ = true;
     stepper_.restart(true);
-    while (group_.active() != 0 && time_ < stop_) advance();
+    for (int k = 1; group_.active() != 0 && time_ < stop_; ++k) {
+      if (cancelled && k % steps_between == 0 && cancelled()) return false;
+      advance();
+    }
+    return true;
   }
 
   bool finished(int lane) const override { return runs(lane); }
   double value(int slot, int lane) const override { return group_.values[slot].lane(lane); }
   Log take_log(int lane) override { return std::move(logs_[lane]); }
+  const std::vector<double>& end_row(int lane) override {
+    if (!ended_) group_.run(group_.logs);
+    ended_ = true;
+    read(lane, row_);
+    return row_;
+  }
 
  private:
   using T = Lanes<isa>;
@@ -88,6 +99,7 @@ class LaneRunOn final : public LaneRun {
   std::int64_t log_position_ = 0;
   double time_ = 0.0;
   bool running_ = false;
+  bool ended_ = false;  // the group shows what is logged at the end
 };
 
 template <Isa isa>

@@ -3,39 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <mutex>
 #include <stdexcept>
-#include <thread>
 
+#include "solvers/bad_value.h"
 #include "solvers/errors.h"
 #include "solvers/lane_run.h"
+#include "solvers/parallel.h"
 #include "solvers/parameters.h"
 
 namespace flyball {
 namespace {
-
-/// Calls work(task, worker) for each task, on as many threads as workers. Rethrows the first failure.
-void in_parallel(int tasks, int workers, const std::function<void(int, int)>& work) {
-  std::atomic<int> next = 0;
-  std::exception_ptr failure;
-  std::mutex guard;
-  const auto serve = [&](int worker) {
-    try {
-      for (int task = next++; task < tasks; task = next++) work(task, worker);
-    } catch (...) {
-      const std::lock_guard lock(guard);
-      if (!failure) failure = std::current_exception();
-      next = tasks;
-    }
-  };
-  std::vector<std::jthread> threads;
-  for (int worker = 1; worker < workers; ++worker) threads.emplace_back(serve, worker);
-  serve(0);
-  threads.clear();
-  if (failure) std::rethrow_exception(failure);
-}
 
 /// Whether the type has its equations on lanes: those of the catalogue that are not on double alone have.
 bool has_lanes(const BlockType& type) {
@@ -47,112 +24,21 @@ bool has_lanes(const BlockType& type) {
          alike(single.on_crossing, lanes.on_crossing);
 }
 
-class Runner {
- public:
-  Runner(std::shared_ptr<const Plan> plan, const SimulationSettings& settings,
-         std::span<const ParameterSet> sets, const LaneOptions& options)
-      : plan_(std::move(plan)),
-        settings_(settings),
-        sets_(sets),
-        options_(options),
-        fresh_(*plan_),
-        outcomes_(sets.size()) {}
+/// `auto` may choose another method than dp5 from the start.
+std::string chosen_method(const Plan& plan, const SimulationSettings& settings) {
+  Workspace<double> workspace(plan);
+  return first_method(plan, PlanSystem(plan, workspace), settings);
+}
 
-  std::vector<LaneOutcome> run() {
-    const bool lanes = runs() > 0 && refuses_lanes(*plan_, settings_).empty() && begins_explicitly();
-    const int size = lanes ? lane_count : 1;
-    const int tasks = (runs() + size - 1) / size;
-    const int workers = std::clamp(options_.threads, 1, std::max(tasks, 1));
-    std::vector<std::unique_ptr<LaneRun>> groups;
-    for (int k = 0; lanes && k < workers; ++k) {
-      groups.push_back(LaneRun::make(options_.isa.value_or(widest_isa()), *plan_, settings_, options_.log));
-    }
-    in_parallel(tasks, workers, [&](int task, int worker) {
-      if (lanes) {
-        run_group(task * size, *groups[worker]);
-      } else {
-        run_alone(task);
-      }
-    });
-    return std::move(outcomes_);
-  }
-
- private:
-  int runs() const { return static_cast<int>(sets_.size()); }
-
-  void run_group(int first, LaneRun& group) {
-    Workspace<double> workspace(*plan_);
-    bool begun[lane_count];
-    for (int lane = 0; lane < lane_count; ++lane) {
-      // The last run fills what is left of the last group.
-      begun[lane] = begin(sets_[std::min(first + lane, runs() - 1)], workspace);
-      group.load(lane, workspace, begun[lane] && first + lane < runs());
-    }
-    group.run();
-    for (int lane = 0; lane < lane_count && first + lane < runs(); ++lane) {
-      if (!group.finished(lane)) {
-        run_alone(first + lane);
-        continue;
-      }
-      LaneOutcome& outcome = outcomes_[first + lane];
-      outcome.values.resize(plan_->layout.size);
-      for (int s = 0; s < plan_->layout.size; ++s) outcome.values[s] = group.value(s, lane);
-      if (options_.log.enabled) outcome.log = group.take_log(lane);
-    }
-  }
-
-  /// The method auto turns away from dp5 where a run is stiff, and lanes do not: so the first run decides.
-  bool begins_explicitly() {
-    if (settings_.method != "auto") return true;
-    Simulator simulator(plan_, settings_, {.enabled = false});
-    set_parameters(simulator, sets_.front());
-    try {
-      simulator.run();
-    } catch (const SimulationError&) {
-      // Of this run alone; it says nothing about the others.
-    }
-    return simulator.method().method == "dp5";
-  }
-
-  void set_parameters(Simulator& simulator, const ParameterSet& set) const {
-    for (const auto& [slot, value] : set) simulator.set_parameter(plan_->slot_name(slot), value);
-  }
-
-  /// False where the run fails before it begins.
-  bool begin(const ParameterSet& set, Workspace<double>& workspace) const {
-    workspace.values = fresh_.values;
-    for (const auto& [slot, value] : set) workspace.values[slot] = value;
-    derive(*plan_, workspace);
-    require_in_range(*plan_, workspace);
-    try {
-      initialise(*plan_, workspace);
-      return true;
-    } catch (const SimulationError&) {
-      return false;
-    }
-  }
-
-  void run_alone(int run) {
-    LaneOutcome& outcome = outcomes_[run];
-    outcome.alone = true;
-    Simulator simulator(plan_, settings_, options_.log);
-    set_parameters(simulator, sets_[run]);
-    try {
-      simulator.run();
-    } catch (const SimulationError& error) {
-      outcome.error = error.what();
-    }
-    outcome.values = simulator.workspace().values;
-    if (options_.log.enabled) outcome.log = simulator.log();
-  }
-
-  std::shared_ptr<const Plan> plan_;
-  const SimulationSettings& settings_;
-  std::span<const ParameterSet> sets_;
-  const LaneOptions& options_;
-  Workspace<double> fresh_;  // what a run begins with before its parameters are set
-  std::vector<LaneOutcome> outcomes_;
-};
+/// The log of a run that is not logged: its row at the end.
+Log end_log(const Simulator& simulator) {
+  const Plan& plan = simulator.plan();
+  Workspace<double> end = simulator.workspace();
+  run(plan.logs, plan, frame(plan, end));
+  Log log(plan);
+  if (!log.append(end.values)) throw_first_bad({&plan.logs}, plan, end);
+  return log;
+}
 
 }  // namespace
 
@@ -169,7 +55,99 @@ std::string refuses_lanes(const Plan& plan, const SimulationSettings& settings) 
     if (!has_lanes(type))
       return fmt::format("{} is a {}, which exists on numbers alone", instance.name, type.name);
   }
+  const std::string method = chosen_method(plan, settings);
+  if (method != "dp5" && method != "auto") return fmt::format("auto takes the method {}", method);
   return "";
+}
+
+LaneSimulator::LaneSimulator(std::shared_ptr<const Plan> plan, const SimulationSettings& settings,
+                             LaneOptions options)
+    : plan_(std::move(plan)), settings_(settings), options_(std::move(options)), fresh_(*plan_) {
+  if (refuses_lanes(*plan_, settings_).empty())
+    group_ = LaneRun::make(options_.isa.value_or(widest_isa()), *plan_, settings_, options_.log);
+}
+
+LaneSimulator::~LaneSimulator() = default;
+
+std::vector<LaneOutcome> LaneSimulator::run(std::span<const LaneInput> group) {
+  std::vector<LaneOutcome> outcomes(group.size());
+  if (group_) {
+    Workspace<double> workspace(*plan_);
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      // The last run fills what is left of the group.
+      const bool begun = begin(group[std::min(lane, group.size() - 1)], workspace);
+      group_->load(static_cast<int>(lane), workspace, begun && lane < group.size());
+    }
+    if (!group_->run(options_.cancelled)) {
+      for (LaneOutcome& outcome : outcomes) outcome.cancelled = true;
+      return outcomes;
+    }
+  }
+  for (std::size_t lane = 0; lane < group.size(); ++lane) {
+    std::optional<LaneOutcome> outcome = outcome_of(static_cast<int>(lane));
+    outcomes[lane] = outcome ? *std::move(outcome) : run_alone(group[lane]);
+  }
+  return outcomes;
+}
+
+/// False where the run fails before it begins.
+bool LaneSimulator::begin(const LaneInput& input, Workspace<double>& workspace) const {
+  workspace.values = fresh_.values;
+  seed(*plan_, workspace, input.seed.value_or(settings_.seed));
+  try {
+    set_parameters(*plan_, input.parameters, workspace);
+    initialise(*plan_, workspace);
+    return true;
+  } catch (const SimulationError&) {
+    return false;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
+/// Nothing where the run must go alone.
+std::optional<LaneOutcome> LaneSimulator::outcome_of(int lane) const {
+  if (!group_ || !group_->finished(lane)) return std::nullopt;
+  LaneOutcome outcome;
+  if (options_.log.enabled) {
+    outcome.log = group_->take_log(lane);
+  } else if (options_.end_row) {
+    const std::vector<double>& row = group_->end_row(lane);
+    outcome.log = Log(*plan_);
+    if (!outcome.log->append(row[0], row.data() + 1)) return std::nullopt;
+  }
+  outcome.values.resize(plan_->layout.size);
+  for (int s = 0; s < plan_->layout.size; ++s) outcome.values[s] = group_->value(s, lane);
+  outcome.end = settings_.stop;
+  return outcome;
+}
+
+LaneOutcome LaneSimulator::run_alone(const LaneInput& input) const {
+  LaneOutcome outcome;
+  outcome.alone = true;
+  SimulationSettings settings = settings_;
+  settings.seed = input.seed.value_or(settings.seed);
+  Simulator simulator(plan_, settings, options_.log);
+  const auto watched = [&](double) {
+    outcome.cancelled = options_.cancelled && options_.cancelled();
+    return !outcome.cancelled;
+  };
+  try {
+    simulator.set_parameters(input.parameters);
+    simulator.run(watched);
+    if (!options_.log.enabled && options_.end_row) outcome.log = end_log(simulator);
+  } catch (const SimulationError& error) {
+    outcome.error = error.what();
+  } catch (const std::invalid_argument& error) {
+    outcome.refused = true;
+    outcome.error = error.what();
+  }
+  if (options_.log.enabled) outcome.log = simulator.log();
+  outcome.values = simulator.workspace().values;
+  outcome.end_reason = simulator.end_reason();
+  outcome.end = simulator.time();
+  outcome.statistics = simulator.statistics();
+  return outcome;
 }
 
 std::vector<LaneOutcome> run_in_lanes(const std::shared_ptr<const Plan>& plan,
@@ -180,7 +158,23 @@ std::vector<LaneOutcome> run_in_lanes(const std::shared_ptr<const Plan>& plan,
   for (const ParameterSet& set : sets) {
     for (const auto& [slot, value] : set) require_settable(*plan, slot);
   }
-  return Runner(plan, settings, sets, options).run();
+  const auto runs = static_cast<int>(sets.size());
+  const int groups = (runs + lane_count - 1) / lane_count;
+  const int workers = std::clamp(options.threads, 1, std::max(groups, 1));
+  std::vector<std::unique_ptr<LaneSimulator>> simulators;
+  for (int k = 0; k < workers; ++k)
+    simulators.push_back(std::make_unique<LaneSimulator>(plan, settings, options));
+  std::vector<LaneOutcome> outcomes(sets.size());
+  in_parallel(groups, workers, [&](std::int64_t task, int worker) {
+    const auto first = static_cast<int>(task) * lane_count;
+    std::vector<LaneInput> group;
+    for (int k = first; k < std::min(first + lane_count, runs); ++k) group.push_back({sets[k]});
+    std::ranges::move(simulators[worker]->run(group), outcomes.begin() + first);
+  });
+  for (const LaneOutcome& outcome : outcomes) {
+    if (outcome.refused) throw std::invalid_argument(outcome.error);
+  }
+  return outcomes;
 }
 
 }  // namespace flyball

@@ -10,11 +10,12 @@ namespace flyball {
 using namespace dormand_prince;
 
 template <Isa isa>
-LaneStepper<isa>::LaneStepper(LaneGroup<isa>& group, const StepperOptions& options)
+LaneStepper<isa>::LaneStepper(LaneGroup<isa>& group, const StepperOptions& options, bool drops_stiff)
     : group_(group),
       options_(options),
       storage_(static_cast<std::size_t>(Step::rows * group.plan.layout.states()), T(0.0)),
-      step_{storage_.data(), group.plan.layout.states(), 0.0} {}
+      step_{storage_.data(), group.plan.layout.states(), 0.0},
+      drops_stiff_(drops_stiff) {}
 
 template <Isa isa>
 void LaneStepper<isa>::rates(double t, T* dx) {
@@ -25,7 +26,11 @@ void LaneStepper<isa>::rates(double t, T* dx) {
 
 template <Isa isa>
 void LaneStepper<isa>::restart(bool fresh) {
-  if (fresh) memory_ = {};
+  if (fresh) {
+    memory_ = {};
+    stiffness_ = {};
+  }
+  for (StiffnessCount& count : stiffness_) count.restart();
   end_ = group_.time();
   std::copy_n(group_.states(), step_.n, step_.row(Step::after));
   group_.run(group_.rates, step_.row(last_rate));
@@ -51,6 +56,7 @@ double LaneStepper<isa>::step(double limit) {
     if (error <= 1.0 && (next.shortened || next.size >= least)) {
       remember(error, next, rejected);
       ++statistics_.steps;
+      if (drops_stiff_) drop_stiff();
       return end_;
     }
     ++statistics_.rejected;
@@ -99,6 +105,42 @@ void LaneStepper<isa>::drop_vanished() {
   for (int k = 0; k < lane_count; ++k) {
     if (!(error_[k] <= 1.0)) group_.drop(static_cast<LaneMask>(1u << k));
   }
+}
+
+/// What AutoStep tests, in each run.
+template <Isa isa>
+void LaneStepper<isa>::drop_stiff() {
+  LaneMask due = 0;
+  for (int k = 0; k < lane_count; ++k) {
+    if (stiffness_[k].due()) due |= static_cast<LaneMask>(1u << k);
+  }
+  if (due == 0) return;
+  // The state of the sixth stage is gone; the extension is not made yet, so that its first row is free.
+  LaneArithmetic<isa>::stage(step_, last_rate - 1, step_.row(Step::extension));
+  for (int k = 0; k < lane_count; ++k) {
+    const auto lane = static_cast<LaneMask>(1u << k);
+    if ((due & lane) == 0) continue;
+    const bool limited = memory_.size < options_.max_step && step_times_stiffness(k) > StiffnessCount::limit;
+    if (stiffness_[k].add(limited)) group_.drop(lane);
+  }
+}
+
+/// As DormandPrince.
+template <Isa isa>
+double LaneStepper<isa>::step_times_stiffness(int lane) const {
+  const T *before = step_.row(Step::before), *after = step_.row(Step::after);
+  const T *sixth = step_.row(Step::extension), *rate = step_.row(last_rate),
+          *sixth_rate = step_.row(last_rate - 1);
+  double states = 0.0, rates = 0.0;
+  for (int i = 0; i < step_.n; ++i) {
+    const double size = std::max(std::fabs(before[i].lane(lane)), std::fabs(after[i].lane(lane)));
+    const double scale = options_.atol + options_.rtol * size;
+    const double state_change = (after[i].lane(lane) - sixth[i].lane(lane)) / scale;
+    const double rate_change = (rate[i].lane(lane) - sixth_rate[i].lane(lane)) / scale;
+    states += state_change * state_change;
+    rates += rate_change * rate_change;
+  }
+  return states > 0.0 ? step_.size * std::sqrt(rates / states) : 0.0;
 }
 
 template <Isa isa>

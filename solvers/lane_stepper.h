@@ -14,7 +14,8 @@ namespace flyball {
 template <Isa isa>
 class LaneStepper {
  public:
-  LaneStepper(LaneGroup<isa>& group, const StepperOptions& options);
+  /// With `drops_stiff`, a run in which stiffness limits the steps leaves the group, as AutoStep leaves dp5.
+  LaneStepper(LaneGroup<isa>& group, const StepperOptions& options, bool drops_stiff);
 
   /// Begins at the time and states of the group. The step size stays; a `fresh` run has none.
   void restart(bool fresh);
@@ -41,12 +42,16 @@ class LaneStepper {
   double worst_error();
   void remember(double error, const Reach& taken, bool rejected);
   void drop_vanished();
+  void drop_stiff();
+  double step_times_stiffness(int lane) const;
 
   LaneGroup<isa>& group_;
   StepperOptions options_;
   std::vector<T> storage_;
   Step step_;
+  bool drops_stiff_;
   StepMemory memory_;
+  std::array<StiffnessCount, lane_count> stiffness_;
   std::array<double, lane_count> error_{};
   double begin_ = 0.0, end_ = 0.0;
   bool extended_ = false;

@@ -43,6 +43,12 @@ void require_settable(const Plan& plan, int slot) {
   }
 }
 
+void set_parameters(const Plan& plan, const ParameterSet& set, Workspace<double>& workspace) {
+  for (const auto& [slot, value] : set) workspace.values[slot] = value;
+  derive(plan, workspace);
+  require_in_range(plan, workspace);
+}
+
 void require_in_range(const Plan& plan, const Workspace<double>& workspace) {
   const std::vector<Parameter>& parameters = plan.diagram->parameters;
   for (std::size_t p = 0; p < parameters.size(); ++p) {

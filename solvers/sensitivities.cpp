@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "solvers/errors.h"
 #include "solvers/parameters.h"
 #include "solvers/sensitivity_pass.h"
 #include "solvers/simulator.h"
@@ -110,6 +111,7 @@ void Sensitivities::Run::run(std::span<const double> parameters) {
     throw std::invalid_argument(
         fmt::format("expected {} parameters, found {}", slots_.size(), parameters.size()));
   Simulator simulator(plan_, settings_, {false});
+  for (const auto& [name, value] : request_.set) simulator.set_parameter(name, value);
   for (std::size_t p = 0; p < parameters.size(); ++p)
     simulator.set_parameter(request_.parameters[p], parameters[p]);
   simulator.tell(*this);
@@ -121,6 +123,12 @@ void Sensitivities::Run::run(std::span<const double> parameters) {
   for (bool more = true; more;) {
     remember_approach();
     more = simulator.advance();
+  }
+  if (simulator.time() < settings_.stop) {
+    throw SimulationError(
+        SimulationError::Kind::asserted, simulator.time(),
+        fmt::format("the run ended at t = {} s, before the last time that is asked for ({})",
+                    simulator.time(), simulator.end_reason()));
   }
   for (auto& pass : passes_) pass->finish(settings_.stop);
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "models/plan.h"
@@ -15,6 +16,7 @@ struct SensitivityRequest {
   std::vector<std::string> parameters;  // "K" or "block.parameter"; initial values are parameters
   std::vector<std::string> signals;     // names of logged columns
   std::vector<double> times;            // [s], ascending, from 0 to the stop time
+  std::vector<std::pair<std::string, double>> set = {};  // parameters with other values than the model's [SI]
 };
 
 struct SensitivityOptions {
@@ -56,7 +58,8 @@ class Sensitivities {
   const std::vector<double>& model_values() const;
 
   /// Runs with these values of the request's parameters [SI]. Throws std::invalid_argument when one is out of
-  /// range, SimulationError as a run does, and where a derivative is not finite. Then nothing of it counts.
+  /// range, SimulationError as a run does, where a derivative is not finite, and where the model ends the run
+  /// before the last time. Then nothing of it counts.
   void run(std::span<const double> parameters);
 
   /// Of the last run: numbers as in the request.

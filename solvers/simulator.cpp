@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "solvers/chattering.h"
 #include "solvers/parameters.h"
@@ -40,20 +41,20 @@ StepperOptions stepper_options(const SimulationSettings& settings) {
 }
 
 Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings& settings, LogOptions log)
-    : Simulator(plan, settings, Workspace<double>(*plan), log, Stage::fresh) {}
+    : Simulator(plan, settings, Workspace<double>(*plan), std::move(log), Stage::fresh) {}
 
 Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings& settings,
                      Workspace<double> checkpoint, LogOptions log)
-    : Simulator(std::move(plan), settings, std::move(checkpoint), log, Stage::resumed) {}
+    : Simulator(std::move(plan), settings, std::move(checkpoint), std::move(log), Stage::resumed) {}
 
 Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings& settings,
                      Workspace<double> workspace, LogOptions log, Stage stage)
     : plan_(std::move(plan)),
       settings_(settings),
-      log_options_(log),
+      log_options_(std::move(log)),
       stage_(stage),
       options_(stepper_options(settings)),
-      asked_(settings),
+      asked_(settings, log_options_.times),
       workspace_(std::move(workspace)),
       system_(*plan_, workspace_),
       method_(first_method(*plan_, system_, settings)),
@@ -318,9 +319,9 @@ Profile Simulator::profile(const Profiler& profiler) const {
 }
 
 void Simulator::set_parameter(std::string_view name, double value) {
-  workspace_.values[settable_parameter(*plan_, name)] = value;
-  derive(*plan_, workspace_);
-  require_in_range(*plan_, workspace_);
+  set_parameters({{settable_parameter(*plan_, name), value}});
 }
+
+void Simulator::set_parameters(const ParameterSet& set) { flyball::set_parameters(*plan_, set, workspace_); }
 
 }  // namespace flyball

@@ -3,11 +3,13 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "solvers/asked_times.h"
 #include "solvers/instant.h"
 #include "solvers/log.h"
 #include "solvers/method.h"
+#include "solvers/parameters.h"
 #include "solvers/profile.h"
 #include "solvers/step_polynomial.h"
 #include "solvers/stepper.h"
@@ -17,6 +19,8 @@ namespace flyball {
 struct LogOptions {
   bool enabled = true;
   EventRows event_rows = EventRows::both;
+  std::vector<double> times =
+      {};  // [s], ascending: rows there instead of at SimulationSettings::log_interval
 };
 
 /// What a run did, for its summary and the result's metadata.
@@ -68,6 +72,8 @@ class Simulator {
   /// Sets a parameter before the run begins: "K" or "block.parameter", SI. Throws std::invalid_argument when
   /// there is none, when it is structural or derived, or when the value is out of range.
   void set_parameter(std::string_view name, double value);
+  /// The same for several at once, by slots that may be set (`settable_parameter`).
+  void set_parameters(const ParameterSet& set);
 
   /// Tells `listener` what each instant does; it must outlive the run.
   void tell(InstantListener& listener) { instant_.tell(listener); }

@@ -9,6 +9,7 @@
 #include "blocks/scalar.h"
 #include "models/sparsity.h"
 #include "solvers/extension.h"
+#include "solvers/stiffness.h"
 
 namespace flyball {
 
@@ -48,8 +49,7 @@ struct StepMemory {
   double last_error = 1e-4;  // weighted error of the last accepted step (PI controller)
 
   // What `auto` knows of stiffness.
-  int untested_steps = 0;
-  int stiff_steps = 0, calm_steps = 0;                           // since the count began anew
+  StiffnessCount stiffness = {};
   double stiff_since = std::numeric_limits<double>::infinity();  // s; BDF from then on
   int stiffest_state = -1;
 };

@@ -61,8 +61,8 @@ std::string panel_script(const Panel& panel, bool last) {
     const bool is_first = &curve == &panel.curves.front();
     const std::string value = curve.factor == 1.0 ? fmt::format("{}", curve.column)
                                                   : fmt::format("(${}*{})", curve.column, curve.factor);
-    script += fmt::format("{}{} using 1:{} skip 1 with lines {}", is_first ? " " : ", \\\n     ",
-                          gnuplot_quoted(curve.csv), value,
+    script += fmt::format("{}{} using 1:{} skip 1 with {} {}", is_first ? " " : ", \\\n     ",
+                          gnuplot_quoted(curve.csv), value, curve.points ? "points pt 7 ps 0.4" : "lines",
                           legend ? "title " + gnuplot_quoted(curve.label) : "notitle");
   }
   return script + '\n';

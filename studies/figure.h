@@ -13,6 +13,7 @@ struct Curve {
   int column = 2;   // counted from 1, as gnuplot counts
   std::string label;
   double factor = 1.0;  // from SI to the unit of the panel
+  bool points = false;  // instead of a line
 };
 
 struct Panel {

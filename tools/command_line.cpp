@@ -1,6 +1,7 @@
 #include "tools/command_line.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -10,6 +11,7 @@
 
 #include "solvers/stepper.h"
 #include "studies/file.h"
+#include "studies/fit/loss.h"
 #include "studies/versions.h"
 #include "tools/commands.h"
 #include "tools/console.h"
@@ -183,6 +185,78 @@ CLI::App* add_graph(CLI::App& app, GraphOptions& options) {
   return command;
 }
 
+/// NAME=TEXT, as often as wanted. Where the form says [=TEXT], the text may be left out, and is NAME then.
+void add_pairs(CLI::App* command, const std::string& option, const std::string& form, const std::string& doc,
+               std::vector<std::pair<std::string, std::string>>& pairs) {
+  const bool only_name = form.find('[') != std::string::npos;
+  const auto read = [=, &pairs](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      const std::size_t equals = text.find('=');
+      const bool alone = equals == std::string::npos;
+      if (equals == 0 || (alone && !only_name))
+        throw CLI::ValidationError(option, fmt::format("expected {}, found \"{}\"", form, text));
+      pairs.emplace_back(text.substr(0, equals), alone ? text : text.substr(equals + 1));
+    }
+  };
+  command->add_option_function<std::vector<std::string>>(option, read, doc)
+      ->type_name(form)
+      ->allow_extra_args(false);
+}
+
+void add_loss(CLI::App* command, FitOptions& options) {
+  const auto read = [&options](const std::string& text) {
+    const std::size_t colon = text.find(':');
+    options.loss = text.substr(0, colon);
+    if (colon != std::string::npos)
+      options.loss_scale = checked("--loss", [&] { return parse_positive(text.substr(colon + 1), "any"); });
+    if (std::ranges::find(Loss::names(), options.loss) == Loss::names().end())
+      throw CLI::ValidationError("--loss", fmt::format("expected one of {}, found \"{}\"",
+                                                       fmt::join(Loss::names(), ", "), options.loss));
+  };
+  command
+      ->add_option_function<std::string>(
+          "--loss", read,
+          "What residuals cost: squared, huber, soft_l1, cauchy; SCALE is the residual where it yields")
+      ->type_name("NAME[:SCALE]");
+}
+
+CLI::App* add_fit(CLI::App& app, FitOptions& options) {
+  CLI::App* command = app.add_subcommand("fit", "Find parameters with which a model follows data");
+  command->add_option("MODEL", options.model, "Model file")->required()->type_name("FILE");
+  command->add_option("--data", options.data, "CSV file of what was measured, time first")
+      ->required()
+      ->type_name("FILE.csv");
+  add_pairs(command, "--match", "SIGNAL[=COLUMN]",
+            "A logged signal and the column of the data that it should be", options.matches);
+  command->get_option("--match")->required();
+  command->add_option("--parameters", options.parameters, "What to find: parameters, or block.parameter")
+      ->required()
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAME,NAME");
+  add_pairs(command, "--bounds", "NAME=LOWER:UPPER", "Where a parameter may be", options.bounds);
+  add_pairs(command, "--start", "NAME=value", "Where the search begins, instead of the model's value",
+            options.starts_at);
+  add_overrides(command, options.overrides);
+  command->add_option("--gradient", options.gradient, "exact, or numeric by central differences")
+      ->check(CLI::IsMember({"exact", "numeric"}));
+  add_loss(command, options);
+  command->add_option("--starts", options.starts, "Begin at so many places, the first one the model's")
+      ->check(CLI::Range(1, 100000))
+      ->type_name("NUMBER");
+  command->add_option("--max-iterations", options.max_iterations, "Of each start")
+      ->check(CLI::Range(1, 100000))
+      ->type_name("NUMBER");
+  command->add_option("-o,--output", options.output, "Folder for the result: values, curves, figure")
+      ->type_name("DIR");
+  command->add_flag("--json", options.json, "Print the result as JSON");
+  command->add_flag("-q,--quiet", options.quiet, "Print errors only");
+  command->footer(
+      "Example:\n  flyball fit models/classic/pid_servo.toml --data step.csv --match shaft=angle "
+      "--parameters Kp,Kd --bounds 'Kp=0 V:50 V' --output fit");
+  return command;
+}
+
 CLI::App* add_report(CLI::App& app, ReportOptions& options) {
   CLI::App* command = app.add_subcommand("report", "Make one HTML file of a result, which needs no network");
   const auto is_result = [](const std::string& name) -> std::string {
@@ -246,6 +320,7 @@ int parse_and_run(int argc, const char* const* argv) {
   RunOptions run;
   CheckOptions check;
   GraphOptions graph;
+  FitOptions fit;
   ReportOptions report;
   FormatOptions format;
   DiffOptions diff;
@@ -253,6 +328,7 @@ int parse_and_run(int argc, const char* const* argv) {
   const CLI::App* run_app = add_run(app, run);
   const CLI::App* check_app = add_check(app, check);
   const CLI::App* graph_app = add_graph(app, graph);
+  const CLI::App* fit_app = add_fit(app, fit);
   const CLI::App* report_app = add_report(app, report);
   const CLI::App* format_app = add_format(app, format);
   const CLI::App* diff_app = add_diff(app, diff);
@@ -268,6 +344,7 @@ int parse_and_run(int argc, const char* const* argv) {
   if (run_app->parsed()) return run_command(run);
   if (check_app->parsed()) return check_command(check);
   if (graph_app->parsed()) return graph_command(graph);
+  if (fit_app->parsed()) return fit_command(fit);
   if (report_app->parsed()) return report_command(report);
   if (format_app->parsed()) return format_command(format);
   if (diff_app->parsed()) return diff_command(diff);

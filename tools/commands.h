@@ -3,6 +3,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "models/diagram.h"
@@ -75,11 +76,30 @@ struct BlocksOptions {
   bool json = false;
 };
 
+struct FitOptions {
+  std::string model;
+  std::string data;                                            // CSV file
+  std::vector<std::pair<std::string, std::string>> matches;    // signal, column
+  std::vector<std::string> parameters;                         // names
+  std::vector<std::pair<std::string, std::string>> bounds;     // name, LOWER:UPPER
+  std::vector<std::pair<std::string, std::string>> starts_at;  // name, value
+  std::vector<Override> overrides;
+  std::string gradient = "exact";
+  std::string loss = "squared";
+  double loss_scale = 1.0;
+  int starts = 1;
+  int max_iterations = 100;
+  std::string output;  // folder; empty: none
+  bool json = false;
+  bool quiet = false;
+};
+
 // The subcommands. Each returns the exit status; FileError and UsageError are left to the caller.
 int run_command(const RunOptions& options);
 int check_command(const CheckOptions& options);
 int format_command(const FormatOptions& options);
 int diff_command(const DiffOptions& options);
+int fit_command(const FitOptions& options);
 int graph_command(const GraphOptions& options);
 int report_command(const ReportOptions& options);
 int blocks_command(const BlocksOptions& options);

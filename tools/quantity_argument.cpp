@@ -30,6 +30,12 @@ double positive_value(const Formula& formula, const std::string& text, const std
 
 }  // namespace
 
+double parse_quantity(const std::string& text, const std::string& unit) {
+  const double value = evaluate(parse(text, unit), {});
+  if (!std::isfinite(value)) throw UsageError(fmt::format("\"{}\": expected a finite value", text));
+  return value;
+}
+
 double parse_positive(const std::string& text, const std::string& unit) {
   return positive_value(parse(text, unit), text, unit);
 }

@@ -30,7 +30,6 @@ std::string model_named_twice(Text name) {
 std::string not_a_label(Text name) {
   return name.empty() ? "expected a name, found an empty text" : "a name has no control characters";
 }
-std::string name_taken(Text name, Text by) { return format("\"{}\" is the name of a {}, too", name, by); }
 
 std::string no_number_place(Text name) {
   return format(
@@ -103,6 +102,12 @@ std::string nothing_to_fit() {
 std::string nothing_to_match(Text experiment) {
   return format("experiment {} has data, but no \"match\" such as {{ y = \"y\" }}", experiment);
 }
+std::string data_before_start(double time) {
+  return format("the data begin at {} s, before the run, which begins at 0 s", time);
+}
+
+std::string data_at_start_only() { return "all data are at 0 s: nothing has happened there"; }
+
 std::string nothing_to_optimise() { return "nothing to optimise: give \"minimise\" or \"maximise\""; }
 std::string no_such_thing(Text kind, Text name, const Names& known) {
   return format("there is no {} \"{}\"", kind, name) + suggestion(name, known);

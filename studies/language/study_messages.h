@@ -16,7 +16,6 @@ std::string model_and_models();
 std::string no_models();
 std::string model_named_twice(Text name);
 std::string not_a_label(Text name);
-std::string name_taken(Text name, Text by);
 
 // Settings.
 std::string no_number_place(Text name);
@@ -50,6 +49,8 @@ std::string bounds_needed(Text name);
 std::string start_outside(double start, double lower, double upper);
 std::string nothing_to_fit();
 std::string nothing_to_match(Text experiment);
+std::string data_before_start(double time);
+std::string data_at_start_only();
 std::string nothing_to_optimise();
 std::string no_such_thing(Text kind, Text name, const Names& known);
 std::string number_count(Text of, std::size_t wanted, std::size_t found);

@@ -250,6 +250,120 @@ TEST_CASE("Where auto leaves dp5, no run goes in lockstep") {
   }
 }
 
+TEST_CASE("A run that turns stiff leaves its group, and the others go on") {
+  // x' = -rate (x - sin t): the first rates are slow, the third takes BDF where auto may choose.
+  Model model = read_model(R"(
+flyball = 1
+[parameters]
+rate = 1.0
+[blocks]
+wave = { type = "SineWave", frequency = 1.0 }
+error = { type = "Sum", signs = "+-" }
+gain = { type = "Gain", gain = "rate" }
+x = { type = "Integrator" }
+y = { type = "Integrator", initial = 1.0 }
+square = { type = "Product" }
+[diagram]
+wires = ["wave -> error.u1", "x -> error.u2", "error -> gain -> x", "x -> square.u1", "x -> square.u2", "square -> y"]
+log = ["x", "y"]
+[simulation]
+stop = "20 s"
+)");
+  const auto sets = sweep(model, "rate", {1.0, 2.0, 1e5, 0.5});
+  const auto outcomes = run_lanes(model, sets);
+  for (const int k : {0, 1, 3}) CHECK_FALSE(outcomes[k].alone);
+  CHECK(outcomes[2].alone);
+  CHECK(outcomes[2].values == alone(model, sets[2]));
+  CHECK(outcomes[2].statistics.stepper.jacobians > 0);
+  model.settings.method = "dp5";
+  model.settings.stop = 0.1;  // stability allows 3e-5 s a step
+  for (const LaneOutcome& outcome : run_lanes(model, sets)) CHECK_FALSE(outcome.alone);
+}
+
+TEST_CASE("Each lane has the random numbers of its seed") {
+  const Model model = read_model(R"(
+flyball = 1
+[blocks]
+n = { type = "RandomNumber", sample_time = "0.1 s" }
+x = { type = "TransferFcn", denominator = [0.2, 1.0] }
+[diagram]
+wires = ["n -> x"]
+log = ["n", "x"]
+[simulation]
+stop = "1 s"
+)");
+  LaneOptions options;
+  options.log.enabled = true;
+  LaneSimulator simulator(model.plan, model.settings, options);
+  const std::vector<LaneInput> group{{{}, 7}, {{}, 8}, {{}, 7}, {}};
+  const auto outcomes = simulator.run(group);
+  const auto noise = [&](const Log& log) {
+    std::vector<double> column;
+    for (std::int64_t row = 0; row < log.rows(); ++row) column.push_back(log.value(row, 0));
+    return column;
+  };
+  for (std::size_t k = 0; k < group.size(); ++k) {
+    Model single = model;
+    single.settings.seed = group[k].seed.value_or(model.settings.seed);
+    Run run(single);
+    run.finish();
+    CHECK_FALSE(outcomes[k].alone);
+    CHECK(noise(*outcomes[k].log) == run.column("n"));
+    CHECK(noise(*simulator.run_alone(group[k]).log) == run.column("n"));
+  }
+  CHECK(noise(*outcomes[0].log) != noise(*outcomes[1].log));
+}
+
+TEST_CASE("The row at the end is that of a log") {
+  const Model model = shipped("classic/two_rate_loop.toml");
+  LaneOptions end, all;
+  end.end_row = all.log.enabled = true;
+  LaneSimulator with_end(model.plan, model.settings, end), with_all(model.plan, model.settings, all);
+  const std::vector<LaneInput> group(lane_count);
+  const auto last_row = [](const Log& log) {
+    return std::vector<double>(log.data().end() - log.width() - 1, log.data().end());
+  };
+  const std::vector<double> expected = last_row(*with_all.run(group)[1].log);
+  const Log row = *with_end.run(group)[1].log;
+  CHECK(row.rows() == 1);
+  CHECK(last_row(row) == expected);
+  CHECK(with_end.run_alone({}).log->rows() == 1);
+}
+
+TEST_CASE("Work on lanes ends early where it is cancelled") {
+  const Model model = shipped("benchmarks/sweep.toml");
+  LaneOptions options;
+  options.cancelled = [] { return true; };
+  Model longer = model;
+  longer.settings.stop = 1000.0;  // thousands of steps, of which each 256th looks
+  LaneSimulator simulator(longer.plan, longer.settings, options);
+  for (const LaneOutcome& outcome : simulator.run(std::vector<LaneInput>(3))) CHECK(outcome.cancelled);
+  CHECK(simulator.run_alone({}).cancelled);
+}
+
+TEST_CASE("Parameters that are set together are checked together") {
+  Model model = read_model(R"(
+flyball = 1
+[parameters]
+low = 0.0
+high = 1.0
+width = { value = "high - low", range = [0.0, 10.0] }
+[blocks]
+x = { type = "Integrator" }
+g = { type = "Gain", gain = "-width" }
+[diagram]
+wires = ["x -> g -> x"]
+log = ["x"]
+[simulation]
+stop = "1 s"
+)");
+  const int low = settable_parameter(*model.plan, "low"), high = settable_parameter(*model.plan, "high");
+  const std::vector<ParameterSet> sets{{{low, 5.0}, {high, 6.0}}};
+  model.settings.method = "bdf";  // alone
+  CHECK(run_lanes(model, sets)[0].error.empty());
+  CHECK_THROWS_WITH(run_lanes(model, {{{low, 5.0}}}), "width is -4, outside its range [0, 10]");
+}
+
 TEST_CASE("Parameters of lanes are checked as those of a run") {
   const Model model = shipped("classic/bouncing_ball.toml");
   CHECK_THROWS_WITH(run_lanes(model, sweep(model, "ball.restitution", {0.5, 1.5})),
