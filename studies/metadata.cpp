@@ -141,10 +141,11 @@ double number_of(const Json& json) {
 }
 
 void read_assessment(const Json& json, Assessment& assessment) {
-  const Json nothing = Json::object();
-  for (const auto& [name, metric] : json.value("metrics", nothing).items())
+  const Json metrics = json.value("metrics", Json::object());
+  const Json requirements = json.value("requirements", Json::object());
+  for (const auto& [name, metric] : metrics.items())
     assessment.metrics.push_back({name, metric.at("text"), metric.at("unit"), number_of(metric.at("value"))});
-  for (const auto& [name, each] : json.value("requirements", nothing).items()) {
+  for (const auto& [name, each] : requirements.items()) {
     const Verdict verdict{each.at("passed"), number_of(each.at("margin")), number_of(each.at("value")),
                           number_of(each.at("time")), each.at("message")};
     assessment.requirements.push_back({name, each.at("text"), each.at("unit"), verdict});

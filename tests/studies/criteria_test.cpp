@@ -54,7 +54,7 @@ TEST_CASE("Criteria: the sections of a model are read and answered") {
 
 TEST_CASE("Criteria: errors stand where they are in the file, all at once") {
   const Read model = read(
-      "[metrics]\nrise = 'rise(moter)'\n  effort =   \"\"\"\n  integral(command) + final(motor)\"\"\"\n"
+      "[metrics]\nrise = 'rise(moter)'\n  effort =   \"\"\"\n  integral(command) + final(command)\"\"\"\n"
       "[requirements]\n\"calm\" = \"over\\u0073hoot(motor) < 5 s\"\n");
   CHECK(model.diagnostics ==
         "model.toml:9:14: error: unknown name \"moter\"; did you mean \"motor\"?\n"

@@ -24,8 +24,7 @@ length = "path_length(robot.pose.x, robot.pose.y)"
 "short_way" = "path_length(robot.pose.x, robot.pose.y) < 5 m"
 TOML
 expect 1 run odd.toml --quiet --output odd.csv --report "odd report.html"
-says "odd report.html" "<h1>A robot&#39;s &lt;way&gt; &amp; &lt;/script&gt;</h1>" 2>/dev/null ||
-  says "odd report.html" "<h1>A robot's &lt;way&gt; &amp; &lt;/script&gt;</h1>"
+says "odd report.html" "<h1>A robot's &lt;way&gt; &amp; &lt;/script&gt;</h1>"
 says "odd report.html" "&lt;/script&gt;&lt;script&gt;alert(&quot;model&quot;)&lt;/script&gt; &amp; &lt;b&gt;"
 says "odd report.html" "1 of 1 requirements failed"
 says "odd report.html" "The way of robot.pose"
@@ -38,7 +37,7 @@ expect 0 report odd.csv --output again.html --quiet
 cmp -s "odd report.html" again.html || fail "$last: another report than that of the run"
 
 # Nothing is asked of the network.
-! grep -oE '(src|href)="[^#"][^"]*"' again.html | grep -v xlink || fail "$last: the report is not alone"
+! grep -oE '(src|href)="[^#"][^"]*"' again.html | grep -vE 'xlink|"data:' || fail "$last: the report is not alone"
 
 # Twelve thousand rows of four columns are thinned to what can be seen.
 size=$(stat -c %s again.html)
