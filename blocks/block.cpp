@@ -137,6 +137,14 @@ Pose<Output> Block::output_pose(std::string name, Pose<State> pose, std::string 
   return {{pose.x.slot}, {pose.y.slot}, {pose.theta.slot}};
 }
 
+Pose<Output> Block::output_pose(std::string name, Pose<Param> before_first_hit, std::string doc) {
+  const Pose<Output> pose = output_pose(std::move(name), std::move(doc));
+  spec_.slots[pose.x.slot].initial_param = before_first_hit.x.slot;
+  spec_.slots[pose.y.slot].initial_param = before_first_hit.y.slot;
+  spec_.slots[pose.theta.slot].initial_param = before_first_hit.theta.slot;
+  return pose;
+}
+
 Output Block::output(std::string name, std::string unit, std::string doc) {
   return {port_slot(false, std::move(name), std::move(unit), std::move(doc))};
 }

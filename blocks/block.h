@@ -55,6 +55,8 @@ class Block {
   Pose<Input> input_pose(std::string name, std::string doc);
   Pose<Output> output_pose(std::string name, std::string doc);
   Pose<Output> output_pose(std::string name, Pose<State> pose, std::string doc);
+  /// Of a sampled block: what it shows before the first hit (else 0).
+  Pose<Output> output_pose(std::string name, Pose<Param> before_first_hit, std::string doc);
 
   Output output(std::string name, std::string unit, std::string doc);
   /// Of a sampled block: what it shows before the first hit (else 0).

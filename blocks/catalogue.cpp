@@ -62,6 +62,11 @@
   BLOCK(control, DiscretePID)             \
   BLOCK(hybrid, BouncingBall)             \
   BLOCK(robot, DifferentialDrive)         \
+  BLOCK(robot, DifferentialDriveForward)  \
+  BLOCK(robot, DifferentialDriveInverse)  \
+  BLOCK(robot, WheelMotors)               \
+  BLOCK(robot, WheelSlip)                 \
+  BLOCK(robot, PoseIntegrator)            \
   BLOCK(robot, Unicycle)                  \
   BLOCK(robot, MecanumDrive)              \
   BLOCK(robot, MecanumInverse)

@@ -37,7 +37,7 @@ std::vector<Endpoint> Order::loop_of(int member) const {
   // Begin with the block that stands first in the file.
   const auto first =
       std::ranges::min_element(walk, {}, [&](Endpoint e) { return diagram_->instances[e.instance].at; });
-  std::ranges::rotate(walk, first);
+  std::rotate(walk.begin(), first, walk.end());
   return walk;
 }
 

@@ -20,7 +20,7 @@ const DataFiles::Content& DataFiles::open(const std::string& file) {
   errno = 0;
   if (!none && size > largest_csv) {
     diagnostics.error({}, message::file_too_large(largest_csv));
-  } else if (const auto text = read_file_content(file)) {
+  } else if (const auto text = read_file_content(file, largest_csv)) {
     content.table = read_csv(*text, diagnostics);
     content.hash = fingerprint(*text);
   } else {

@@ -1,13 +1,9 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
 namespace flyball {
-
-/// The content of a file; nothing when it cannot be read, and errno then says why.
-std::optional<std::string> content_of(const std::string& file);
 
 /// The path of `name`, which `user`, another file, names relative to its own folder.
 std::string path_beside(const std::string& user, std::string_view name);

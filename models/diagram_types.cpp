@@ -9,6 +9,7 @@
 #include "models/diagram_files.h"
 #include "models/diagram_overrides.h"
 #include "models/language/messages.h"
+#include "models/read_file.h"
 
 namespace flyball {
 namespace {
@@ -179,7 +180,7 @@ SubsystemType* SubsystemTypes::open_file(const SubsystemType& user, const TomlEn
   const auto known = by_identity_.find(identity_of(file));
   if (known != by_identity_.end()) return known->second;
   errno = 0;
-  const auto text = content_of(file);
+  const auto text = read_file_content(file);
   if (!text) {
     report.error_inside(name, 0, message::unreadable_file(file, std::strerror(errno)));
     return nullptr;

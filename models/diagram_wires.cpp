@@ -41,6 +41,7 @@ void ModelWires::read(const Subsystem& subsystem) {
 
 void ModelWires::read_wire(const PortNames& names, const TomlValue& wire) {
   const Report& report = names.report();
+  if (wire.text.size() > longest_wire) return report.error(wire.at, message::wire_too_long(longest_wire));
   const auto links = Piece{&wire, 0, wire.text}.split("->");
   if (links.size() < 2) return report.error_inside(wire, 0, message::wire_without_arrow());
   for (std::size_t k = 0; k + 1 < links.size(); ++k) {

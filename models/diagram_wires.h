@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,10 @@
 #include "models/diagram_ports.h"
 
 namespace flyball {
+
+/// No wire is longer, in bytes: telling where each mistake in it stands takes time that grows with its
+/// square.
+inline constexpr std::size_t longest_wire = 100'000;
 
 /// The wires of [diagram] of all subsystems: connects the inputs of the blocks, and ports of subsystems.
 class ModelWires {

@@ -35,7 +35,7 @@ std::string product_text(const SignalEquations& equations, const LinearForm& for
   const auto is_literal = [&](const auto& term) {
     return term.unknown >= base_units && equations.literal(term.unknown).has_value();
   };
-  std::ranges::stable_partition(terms, is_literal);
+  std::stable_partition(terms.begin(), terms.end(), is_literal);
   for (const auto& [unknown, exponent] : terms) {
     const bool divides = exponent.numerator() < 0;
     const Rational size = divides ? subtract(Rational(0), exponent).value_or(exponent) : exponent;

@@ -53,15 +53,17 @@ class Analysis {
     return form && is_unit(*form) ? message::unit_text(*form) : "";
   }
   std::string unit(Endpoint signal) { return unit(equations_.unknown(signal.instance, signal.slot)); }
+  /// As declared: rad/s says more than its dimension does.
+  NamedUnit named(int unknown, const std::string& declared) {
+    return {equations_.name(unknown), declared == "any" ? unit(unknown) : declared};
+  }
   NamedUnit parameter(int parameter) {
-    const int unknown = equations_.unknown(parameter);
-    return {equations_.name(unknown), unit(unknown)};
+    return named(equations_.unknown(parameter), equations_.diagram().parameters[parameter].unit);
   }
   void append(int instance, const PortSpec& port, std::vector<NamedUnit>& all) {
     for (const int slot : port.slots) {
-      if (!equations_.diagram().instances[instance].object->specification->slots[slot].numeric()) continue;
-      const int unknown = equations_.unknown(instance, slot);
-      all.push_back({equations_.name(unknown), unit(unknown)});
+      const SlotSpec& spec = equations_.diagram().instances[instance].object->specification->slots[slot];
+      if (spec.numeric()) all.push_back(named(equations_.unknown(instance, slot), spec.unit));
     }
   }
 

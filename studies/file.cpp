@@ -98,7 +98,7 @@ FileError::FileError(const fs::path& file, std::string_view what, int error_numb
                              ? fmt::format("{}: {}", file.string(), what)
                              : fmt::format("{}: {}: {}", file.string(), what, std::strerror(error_number))) {}
 
-std::string read_file(const fs::path& file) {
+std::string read_file(const fs::path& file, std::size_t most) {
   const Descriptor descriptor(file, O_RDONLY);
   if (descriptor.get() < 0) throw FileError(file, "cannot be read", errno);
   std::string content;
@@ -109,6 +109,7 @@ std::string read_file(const fs::path& file) {
         retried([&] { return ::read(descriptor.get(), content.data() + size, content.size() - size); });
     if (got < 0) throw FileError(file, "cannot be read", errno);
     size += static_cast<std::size_t>(got);
+    if (size > most) throw FileError(file, "cannot be read", EFBIG);
     if (got == 0) break;
   }
   content.resize(size);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -18,8 +20,8 @@ class OutputError : public FileError {
   using FileError::FileError;
 };
 
-/// The whole content of a file. Throws FileError.
-std::string read_file(const std::filesystem::path& file);
+/// The whole content of a file. Throws FileError, also when there is more than `most` bytes.
+std::string read_file(const std::filesystem::path& file, std::size_t most = SIZE_MAX);
 
 /// Writes a file whole or not at all: a reader, or a crash at any time, sees the old content or the new.
 /// Throws OutputError; the old file is then as it was.

@@ -5,7 +5,9 @@
 #include <iterator>
 
 #include "models/dimensions.h"
+#include "models/read_file.h"
 #include "studies/file.h"
+#include "studies/language/run_table.h"
 #include "studies/result_check.h"
 #include "tools/commands.h"
 #include "tools/console.h"
@@ -55,9 +57,16 @@ std::string unit_lines(const DimensionTable& table) {
   return lines;
 }
 
+std::string counts(const Study& study) {
+  return fmt::format("{}, {}, {}, {}", counted(study.models.size(), "model"),
+                     counted(study.cases.size(), "case"), counted(study.scenarios.size(), "scenario"),
+                     counted(static_cast<std::size_t>(RunTable(study, study.cases).size()), "run"));
+}
+
 /// What was checked, and what was found.
 struct Findings {
   std::vector<ModelFile> models;
+  std::vector<CheckedStudy> studies;
   std::vector<ResultCheck> results;
   std::string lines;
   std::size_t errors = 0;
@@ -76,6 +85,16 @@ void check_model(const std::string& name, const CheckOptions& options, Findings&
   findings.models.push_back(std::move(model));
 }
 
+void check_study(const std::string& name, const std::string& text, Findings& findings) {
+  Diagnostics diagnostics(name);
+  const auto study = read_study(text, diagnostics);
+  CheckedStudy checked{name, diagnostics.sorted(), study ? RunTable(*study, study->cases).size() : 0};
+  complain(listing(checked.diagnostics));
+  findings.errors += static_cast<std::size_t>(count_errors(checked.diagnostics));
+  if (study) findings.lines += fmt::format("{}: ok: {}\n", name, counts(*study));
+  findings.studies.push_back(std::move(checked));
+}
+
 void check_result_file(const std::string& name, Findings& findings) {
   ResultCheck result = check_result(std::filesystem::path(name));
   complain(listing(result.diagnostics));
@@ -90,6 +109,8 @@ void check_result_file(const std::string& name, Findings& findings) {
 void check_file(const std::string& name, const CheckOptions& options, Findings& findings) try {
   if (std::filesystem::path(name).extension() == ".csv") {
     check_result_file(name, findings);
+  } else if (const std::string text = read_file(name, largest_model); is_study(text)) {
+    check_study(name, text, findings);
   } else {
     check_model(name, options, findings);
   }
@@ -104,7 +125,8 @@ void check_file(const std::string& name, const CheckOptions& options, Findings& 
 int check_command(const CheckOptions& options) {
   Findings findings;
   for (const std::string& name : options.files) check_file(name, options, findings);
-  print(options.json ? check_json(findings.models, options.units, findings.results) : findings.lines);
+  print(options.json ? check_json(findings.models, options.units, findings.results, findings.studies)
+                     : findings.lines);
   if (findings.errors > 0) complain(counted(findings.errors, "error") + '\n');
   if (findings.unreadable) return exit_input_output;
   return findings.errors > 0 ? exit_model_error : exit_done;

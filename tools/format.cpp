@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "models/language/toml.h"
+#include "models/read_file.h"
 #include "studies/file.h"
 #include "tools/commands.h"
 #include "tools/console.h"
@@ -34,7 +35,7 @@ int format_command(const FormatOptions& options) {
   int status = exit_done;
   std::vector<FormattedFile> files;
   for (const std::string& name : options.files) {
-    const std::string text = read_file(name);
+    const std::string text = read_file(name, largest_model);
     const auto result = formatted(name, text);
     if (!result) {
       status = exit_model_error;

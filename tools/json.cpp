@@ -50,6 +50,13 @@ Json result_json(const ResultCheck& result) {
           {"diagnostics", diagnostics_json(result.diagnostics)}};
 }
 
+Json study_json(const CheckedStudy& study) {
+  return {{"file", study.name},
+          {"ok", count_errors(study.diagnostics) == 0},
+          {"runs", study.runs},
+          {"diagnostics", diagnostics_json(study.diagnostics)}};
+}
+
 /// A unit that the model does not determine is null.
 Json units_json(const std::vector<NamedUnit>& units) {
   Json json = Json::array();
@@ -132,10 +139,11 @@ Json block_json(const BlockType& type) {
 }  // namespace
 
 std::string check_json(const std::vector<ModelFile>& models, bool units,
-                       const std::vector<ResultCheck>& results) {
+                       const std::vector<ResultCheck>& results, const std::vector<CheckedStudy>& studies) {
   Json json = {{"models", Json::array()}};
   for (const ModelFile& model : models) json["models"].push_back(model_json(model, units));
   for (const ResultCheck& result : results) json["results"].push_back(result_json(result));
+  for (const CheckedStudy& study : studies) json["studies"].push_back(study_json(study));
   return text_of(json);
 }
 

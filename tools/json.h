@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,20 @@
 
 namespace flyball {
 
+/// A study that was read: how many runs it asks for, and what was found.
+struct CheckedStudy {
+  std::string name;
+  std::vector<Diagnostic> diagnostics;
+  std::int64_t runs = 0;
+};
+
 /// {"models": [{"file", "ok", "blocks", "states", "rates", "crossings", "diagnostics": […]}]}; with
 /// `units` also the signals and parameters with their units, and notes. Where results were checked, too,
-/// "results": [{"file", "ok", "rows", "columns", "diagnostics"}].
+/// "results": [{"file", "ok", "rows", "columns", "diagnostics"}], and "studies": [{"file", "ok", "runs",
+/// "diagnostics"}].
 std::string check_json(const std::vector<ModelFile>& models, bool units = false,
-                       const std::vector<ResultCheck>& results = {});
+                       const std::vector<ResultCheck>& results = {},
+                       const std::vector<CheckedStudy>& studies = {});
 
 /// {"differences": [{"kind", "section", "name", "before", "after"}]}
 std::string diff_json(const std::vector<Difference>& differences);

@@ -1,5 +1,6 @@
 #include "tools/model_file.h"
 
+#include "models/read_file.h"
 #include "studies/file.h"
 
 namespace flyball {
@@ -7,7 +8,7 @@ namespace flyball {
 ModelFile load_model(const std::string& file, const std::vector<Override>& overrides) {
   ModelFile model;
   model.name = file;
-  model.text = read_file(file);
+  model.text = read_file(file, largest_model);
   Diagnostics diagnostics(file);
   if (auto diagram = read_diagram(model.text, diagnostics, overrides)) {
     model.plan = make_plan(std::make_shared<const Diagram>(*std::move(diagram)), diagnostics);

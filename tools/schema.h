@@ -8,4 +8,7 @@ namespace flyball {
 /// ranges, choices and texts of every block.
 std::string model_schema();
 
+/// The same of study files.
+std::string study_schema();
+
 }  // namespace flyball

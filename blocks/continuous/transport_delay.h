@@ -6,6 +6,7 @@ namespace flyball {
 
 struct TransportDelay : Block {
   static constexpr auto summary = "Shows its input a fixed time later.";
+  static constexpr std::array aliases{"Modelica.Blocks.Nonlinear.FixedDelay", "TIME_DELAY"};
   Param delay = param("delay", 1.0, "s", positive, "how much later");
   Param initial = param("initial", 0.0, "any", any, "output until the input of time 0 arrives");
   Input u = input("u", "any", "signal");

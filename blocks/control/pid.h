@@ -5,6 +5,7 @@ namespace flyball {
 
 struct PID : PIDTerms {
   static constexpr auto summary = "PID controller with a filtered derivative: u = P + I + D.";
+  static constexpr std::array aliases{"Modelica.Blocks.Continuous.PID", "Modelica.Blocks.Continuous.LimPID"};
   using PIDTerms::PIDTerms;
   Param N = param("N", 100.0, "rad/s", positive, "pole of the derivative filter");
   State I = state("integral", 0.0, "any", "integral part");

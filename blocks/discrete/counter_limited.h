@@ -5,6 +5,7 @@ namespace flyball {
 
 struct CounterLimited : Block {
   static constexpr auto summary = "Counts sample hits from 0 up to a limit, and begins again.";
+  static constexpr std::array aliases{"Modulo_Count"};
   SampleTime ts = sample_time();
   Param upper = param("upper", 7.0, "1", non_negative, "last count before 0");
   Output y = output("y", "1", "the count");

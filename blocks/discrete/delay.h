@@ -5,6 +5,7 @@ namespace flyball {
 
 struct Delay : Block {
   static constexpr auto summary = "Delays its input by a number of sample times.";
+  static constexpr std::array aliases{"REGISTER", "REGISTER_f"};
   SampleTime ts = sample_time();
   int length = count("length", 2, 1, 10000, "number of sample times");
   bool each = given("initial_values");

@@ -6,6 +6,7 @@ namespace flyball {
 struct DiscreteStateSpace : StateSpaceTerms {
   static constexpr auto summary =
       "A sampled linear system: x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k).";
+  static constexpr std::array aliases{"Modelica.Blocks.Discrete.StateSpace", "DLSS", "DLSS_f"};
   using StateSpaceTerms::StateSpaceTerms;
   SampleTime ts = sample_time();
   Helds x = helds("x", start(), "any", "state at the next hit");

@@ -5,6 +5,7 @@ namespace flyball {
 
 struct DiscreteTransferFcn : TransferTerms {
   static constexpr auto summary = "A sampled transfer function, numerator(z)/denominator(z).";
+  static constexpr std::array aliases{"Modelica.Blocks.Discrete.TransferFunction", "DLR", "DLR_f"};
   explicit DiscreteTransferFcn(Settings* settings) : TransferTerms(settings, "z") {}
   SampleTime ts = sample_time();
   Helds x = helds("x", std::vector<Param>(order), "any",

@@ -5,6 +5,7 @@ namespace flyball {
 
 struct Divide : Block {
   static constexpr auto summary = "Divides one signal by another, which must not pass zero.";
+  static constexpr std::array aliases{"Modelica.Blocks.Math.Division"};
   bool jumps =
       flag("divisor_jumps", false, "the divisor may change its sign in a jump; else that is an error");
   Input u1 = input("u1", "any", "dividend");

@@ -5,6 +5,7 @@ namespace flyball {
 
 struct LogicalOperator : Block {
   static constexpr auto summary = "A logical function of its inputs: 1 when true, else 0.";
+  static constexpr std::array aliases{"LOGICAL_OP"};
   // In the order of `choices`: each odd one is the opposite of the one before.
   int function = option("operator", "AND", {"AND", "NAND", "OR", "NOR", "XOR", "NXOR", "NOT"},
                         "which; XOR is true when an odd number of inputs is");

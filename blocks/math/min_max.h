@@ -5,6 +5,7 @@ namespace flyball {
 
 struct MinMax : Block {
   static constexpr auto summary = "The least or the greatest of its inputs.";
+  static constexpr std::array aliases{"MAXMIN"};
   bool greatest = option("function", "min", {"min", "max"}, "which") == 1;
   int width = count("inputs", 2, 1, 1000, "number of inputs");
   Inputs u = inputs("u", width, "any", "signal");

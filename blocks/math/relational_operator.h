@@ -5,6 +5,7 @@ namespace flyball {
 
 struct RelationalOperator : Block {
   static constexpr auto summary = "Compares its inputs: 1 when the comparison holds, else 0.";
+  static constexpr std::array aliases{"RELATIONALOP"};
   // In the order of `choices`.
   enum class Comparison { equal, different, less, less_equal, greater_equal, greater };
   Comparison comparison = static_cast<Comparison>(

@@ -5,6 +5,7 @@ namespace flyball {
 
 struct Sign : Block {
   static constexpr auto summary = "1 for a positive signal, -1 for a negative one.";
+  static constexpr std::array aliases{"Modelica.Blocks.Math.Sign", "SIGNUM"};
   Input u = input("u", "any", "signal");
   Output y = output("y", "1", "the sign; a signal that starts at 0 has the sign 0 until it leaves it");
   Relation positive = relation("positive", "the signal is positive");

@@ -6,6 +6,7 @@ namespace flyball {
 struct Backlash : Block {
   static constexpr auto summary =
       "Play between input and output: the output rests inside of it, and is pushed along at its ends.";
+  static constexpr std::array aliases{"BACKLASH"};
   Param width = param("width", 1.0, "any", non_negative, "the play");
   // A contact without any give would have to know the rate of the signal to tell when it ends.
   Param tau = param("tau", 1e-3, "s", positive, "time constant of the contact: y is late by tau");

@@ -5,6 +5,7 @@ namespace flyball {
 
 struct HitCrossing : Block {
   static constexpr auto summary = "Finds when its input crosses a level, and marks it by a pulse.";
+  static constexpr std::array aliases{"Modelica.Blocks.Logical.ZeroCrossing", "ZCROSS_f"};
   int direction =
       option("direction", "either", {"either", "rising", "falling"}, "which passage of the level is a hit");
   Param offset = param("offset", 0.0, "any", any, "the level");

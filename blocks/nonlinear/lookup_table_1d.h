@@ -5,6 +5,8 @@ namespace flyball {
 
 struct LookupTable1D : Block {
   static constexpr auto summary = "A function of its input, given by a table.";
+  static constexpr std::array aliases{"Modelica.Blocks.Tables.CombiTable1Ds", "LOOKUP_f", "LOOKUP_c",
+                                      "INTRPLBLK_f"};
   TableAxis::Method method = static_cast<TableAxis::Method>(
       option("method", "linear", TableAxis::method_names(),
              "between breakpoints: a line, the nearest value, or the value of the breakpoint below"));

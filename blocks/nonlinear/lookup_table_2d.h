@@ -5,6 +5,7 @@ namespace flyball {
 
 struct LookupTable2D : Block {
   static constexpr auto summary = "A function of its two inputs, given by a table.";
+  static constexpr std::array aliases{"Modelica.Blocks.Tables.CombiTable2Ds", "LOOKUP2D", "INTRP2BLK_f"};
   TableAxis::Method method = static_cast<TableAxis::Method>(option(
       "method", "linear", TableAxis::method_names(),
       "between breakpoints: linear in each input, the nearest value, or that of the breakpoints below"));

@@ -5,6 +5,7 @@ namespace flyball {
 
 struct Quantizer : Block {
   static constexpr auto summary = "Rounds its input to whole multiples of an interval.";
+  static constexpr std::array aliases{"QUANT_f"};
   Param interval = param("interval", 0.5, "any", positive, "distance between two levels");
   Input u = input("u", "any", "signal");
   Output y = output("y", "any", "the nearest multiple");

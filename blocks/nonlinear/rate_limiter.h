@@ -5,6 +5,7 @@ namespace flyball {
 
 struct RateLimiter : Block {
   static constexpr auto summary = "Follows its input no faster than two rates, with a short time constant.";
+  static constexpr std::array aliases{"Modelica.Blocks.Nonlinear.SlewRateLimiter", "RATELIMITER"};
   Param rising = param("rising", 1.0, "any", any, "greatest rate of change, at least 0");
   Param falling = param("falling", -1.0, "any", any, "least rate of change, at most 0");
   Param tau = param("tau", 1e-3, "s", positive, "time constant with which the input is followed");

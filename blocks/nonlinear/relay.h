@@ -5,7 +5,7 @@ namespace flyball {
 
 struct Relay : Block {
   static constexpr auto summary = "Switches between two values with hysteresis.";
-  static constexpr std::array aliases{"HYSTHERESIS"};
+  static constexpr std::array aliases{"Modelica.Blocks.Logical.Hysteresis", "HYSTHERESIS"};
   Param switch_on = param("switch_on", 0.5, "any", any, "rising through this level, the signal switches on");
   Param switch_off =
       param("switch_off", -0.5, "any", any, "falling through this level, the signal switches off");

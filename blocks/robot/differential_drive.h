@@ -1,12 +1,11 @@
 #pragma once
-#include "blocks/block.h"
+#include "blocks/robot/differential_drive_terms.h"
 
 namespace flyball {
 
-struct DifferentialDrive : Block {
+struct DifferentialDrive : DifferentialDriveTerms {
   static constexpr auto summary = "Kinematics of a robot with two driven wheels, rolling without slip.";
-  Param wheel_diameter = param("wheel_diameter", 0.04, "m", positive, "diameter of a wheel");
-  Param track_width = param("track_width", 0.054, "m", positive, "distance between the wheels");
+  using DifferentialDriveTerms::DifferentialDriveTerms;
   Param initial_x = param("initial_x", 0.0, "m", any, "x at the start");
   Param initial_y = param("initial_y", 0.0, "m", any, "y at the start");
   Param initial_theta = param("initial_theta", 0.0, "rad", any, "heading at the start");
@@ -21,8 +20,8 @@ struct DifferentialDrive : Block {
       output_pose("pose", Pose<State>{x, y, theta}, "position of the middle of the axle and heading");
 
   void outputs(auto& v) const {
-    v[speed] = v[wheel_diameter] / 4.0 * (v[right] + v[left]);
-    v[turn] = v[wheel_diameter] / (2.0 * v[track_width]) * (v[right] - v[left]);
+    v[speed] = speed_of(v, v[right], v[left]);
+    v[turn] = turn_of(v, v[right], v[left]);
   }
   void rates(auto& v) const {
     v.rate(x) = v[speed] * cos(v[theta]);

@@ -5,6 +5,7 @@ namespace flyball {
 
 struct Selector : Block {
   static constexpr auto summary = "Picks elements of a vector signal.";
+  static constexpr std::array aliases{"Modelica.Blocks.Routing.ExtractSignal", "EXTRACTOR"};
   int width = count("width", 2, 1, 1000, "number of elements of the input");
   std::vector<int> indices =
       counts("indices", {1}, 1, width, "which elements, in their order, counted from 1");

@@ -5,7 +5,7 @@ namespace flyball {
 
 struct Switch : Block {
   static constexpr auto summary = "Passes u1 while its control exceeds a threshold, else u3.";
-  static constexpr std::array aliases{"SWITCH2", "SWITCH2_m"};
+  static constexpr std::array aliases{"Modelica.Blocks.Logical.Switch", "SWITCH2", "SWITCH2_m"};
   Param threshold = param("threshold", 0.0, "any", any, "level that the control must exceed");
   Input u1 = input("u1", "any", "signal while the control exceeds the threshold");
   Input control = input("control", "any", "decides");

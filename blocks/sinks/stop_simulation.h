@@ -5,6 +5,7 @@ namespace flyball {
 
 struct StopSimulation : Block {
   static constexpr auto summary = "Ends the run when a signal is no longer 0.";
+  static constexpr std::array aliases{"Modelica.Blocks.Logical.TerminateSimulation", "HALT_f"};
   std::string message = text("message", "the end was asked for", "what the summary says");
   // Halfway between the two values of a logical signal.
   Param threshold = param("threshold", 0.5, "any", any, "the run ends when the signal rises through this");

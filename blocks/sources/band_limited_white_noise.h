@@ -6,6 +6,7 @@ namespace flyball {
 
 struct BandLimitedWhiteNoise : Block {
   static constexpr auto summary = "White noise of a given spectral density, up to half the sample rate.";
+  static constexpr std::array aliases{"Modelica.Blocks.Noise.BandLimitedWhiteNoise"};
   SampleTime ts = sample_time();
   Param stream = random_stream();
   Param power = param("power", 0.1, "any", non_negative, "two-sided power spectral density, per Hz");

@@ -8,6 +8,7 @@ namespace flyball {
 struct FromFile : Block {
   static constexpr auto summary =
       "A column of a file of comma-separated values, over its first column, time.";
+  static constexpr std::array aliases{"Modelica.Blocks.Sources.CombiTimeTable", "RFILE_f"};
   static constexpr bool lockstep = false;  // each run is at a row of its own
   std::shared_ptr<const TimeSeries> data = time_series("file", "column");
   // In the order of `choices`.

@@ -5,6 +5,7 @@ namespace flyball {
 
 struct Ramp : Block {
   static constexpr auto summary = "Rises with a constant slope from a given time on.";
+  static constexpr std::array aliases{"RAMP"};
   Param slope = param("slope", 1.0, "any", any, "change per second");
   Param start = param("start", 0.0, "s", any, "time at which it begins to rise");
   Param initial = param("initial", 0.0, "any", any, "value until then");

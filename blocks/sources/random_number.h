@@ -6,6 +6,7 @@ namespace flyball {
 
 struct RandomNumber : Block {
   static constexpr auto summary = "Normally distributed random numbers, a new one at each sample hit.";
+  static constexpr std::array aliases{"Modelica.Blocks.Noise.NormalNoise"};
   SampleTime ts = sample_time();
   Param stream = random_stream();
   Param mean = param("mean", 0.0, "any", any, "mean value");

@@ -6,6 +6,7 @@ namespace flyball {
 
 struct UniformRandomNumber : Block {
   static constexpr auto summary = "Uniformly distributed random numbers, a new one at each sample hit.";
+  static constexpr std::array aliases{"Modelica.Blocks.Noise.UniformNoise", "RAND_m", "RAND_f"};
   SampleTime ts = sample_time();
   Param stream = random_stream();
   Param lower = param("lower", -1.0, "any", any, "lower end");

@@ -68,6 +68,9 @@ std::string unreadable(Text reason) { return format("cannot be read: {}", reason
 std::string not_utf8(unsigned char byte) {
   return format("not UTF-8: unexpected byte 0x{:02X}; save the file as UTF-8", byte);
 }
+std::string line_too_long(std::size_t limit) {
+  return format("the line is longer than {} bytes; a list may stand on several lines", limit);
+}
 std::string nested_too_deeply(int limit) { return format("nested more than {} levels deep", limit); }
 std::string syntax(Text reason) {
   if (reason.starts_with("unescaped control")) reason = "a text in quotes ends on the line where it began";
@@ -281,6 +284,9 @@ std::string unknown_element(Text port, Text element, const Names& known) {
   return format("{} has no element \"{}\"{}", port, element, suggestion(element, known));
 }
 std::string wire_without_arrow() { return "expected a wire such as \"a -> b\", found no ->"; }
+std::string wire_too_long(std::size_t limit) {
+  return format("the wire is longer than {} bytes; write several", limit);
+}
 std::string fan_out_inside_chain() { return "only the last part of a wire can name several inputs"; }
 std::string object_and_number(Text from, Text to, bool to_number) {
   return format("{} carries {}, but {} takes {}", from, to_number ? "an object" : "numbers", to,

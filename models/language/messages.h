@@ -18,6 +18,7 @@ using Text = std::string_view;
 // The file as a whole.
 std::string unreadable(Text reason);
 std::string not_utf8(unsigned char byte);
+std::string line_too_long(std::size_t limit);
 std::string nested_too_deeply(int limit);
 std::string syntax(Text reason);
 std::string stands_twice(Text key);
@@ -113,6 +114,7 @@ std::string no_port(Text block, Text type, bool is_input);
 std::string several_ports(Text block, Text type, bool is_input, const Names& ports);
 std::string unknown_element(Text port, Text element, const Names& known);
 std::string wire_without_arrow();
+std::string wire_too_long(std::size_t limit);
 std::string fan_out_inside_chain();
 std::string object_and_number(Text from, Text to, bool to_number);
 std::string different_objects(Text from, Text to);

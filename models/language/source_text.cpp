@@ -5,6 +5,9 @@
 namespace flyball {
 namespace {
 
+// Columns are asked for by the thousand in generated lines: none is counted from the start of its line.
+constexpr std::size_t stretch = 256;
+
 bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
 /// Length of the sequence that starts with this byte, 0 when none does.
@@ -52,24 +55,38 @@ SourceText::SourceText(std::string text, int number)
   for (std::size_t at = text_.find('\n'); at != std::string::npos; at = text_.find('\n', at + 1)) {
     line_starts_.push_back(at + 1);
   }
+  std::size_t count = 0;
+  for (std::size_t at = 0; at <= text_.size(); ++at) {
+    if (at % stretch == 0) continued_.push_back(count);
+    if (at < text_.size() && continues(text_[at])) ++count;
+  }
+}
+
+std::size_t SourceText::continued(std::size_t offset) const {
+  const auto first = text_.begin() + static_cast<std::ptrdiff_t>(offset - offset % stretch);
+  const auto last = text_.begin() + static_cast<std::ptrdiff_t>(offset);
+  return continued_[offset / stretch] + static_cast<std::size_t>(std::count_if(first, last, continues));
 }
 
 Position SourceText::position(std::size_t offset) const {
   offset = std::min(offset, text_.size());
   const auto line = std::ranges::upper_bound(line_starts_, offset) - line_starts_.begin();
-  const auto first = text_.begin() + static_cast<std::ptrdiff_t>(line_starts_[line - 1]);
-  const auto last = text_.begin() + static_cast<std::ptrdiff_t>(offset);
-  const auto characters = std::count_if(first, last, [](char c) { return !continues(c); });
+  const std::size_t start = line_starts_[line - 1];
+  const std::size_t characters = offset - start - (continued(offset) - continued(start));
   return {static_cast<int>(line), static_cast<int>(characters) + 1, number_};
 }
 
 std::size_t SourceText::offset(Position at) const {
   if (at.line < 1 || at.line > static_cast<int>(line_starts_.size())) return text_.size();
-  std::size_t result = line_starts_[at.line - 1];
-  for (int column = 1; column < at.column && result < text_.size(); ++column) {
-    ++result;
-    while (result < text_.size() && continues(text_[result])) ++result;
+  const std::size_t start = line_starts_[at.line - 1];
+  const std::size_t characters = static_cast<std::size_t>(std::max(at.column, 1)) - 1;
+  // Each guess is as many bytes further as the one before left out; none is too far.
+  std::size_t result = std::min(start + characters, text_.size());
+  for (std::size_t before = start; result != before;) {
+    before = result;
+    result = std::min(start + characters + (continued(result) - continued(start)), text_.size());
   }
+  while (result < text_.size() && continues(text_[result])) ++result;
   return result;
 }
 
@@ -84,6 +101,15 @@ std::optional<std::size_t> find_invalid_utf8(std::string_view text) {
       if (!continues(text[at + k])) return at;
     }
     at += length;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> find_long_line(std::string_view text, std::size_t limit) {
+  for (std::size_t start = 0; text.size() - start > limit;) {
+    const std::size_t end = text.find('\n', start);
+    if (end == std::string_view::npos || end - start > limit) return start + limit;
+    start = end + 1;
   }
   return std::nullopt;
 }

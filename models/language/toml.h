@@ -63,6 +63,10 @@ class TomlDocument {
 /// Brackets and dotted keys deeper than this are refused, so that no text can exhaust the stack.
 inline constexpr int deepest_nesting = 64;
 
+/// No line is longer, in bytes. Whatever one line may hold, reading it and telling what is wrong with it
+/// stays short.
+inline constexpr std::size_t longest_line = 1'000'000;
+
 /// Parses a text. Everything that is wrong is reported; nothing comes back when there is no tree to go on
 /// with. NaN, infinities and keys that stand twice are reported; the tree holds the former, but not the
 /// latter. Positions are in source `source` of the diagnostics.

@@ -6,6 +6,7 @@
 #include "models/language/csv.h"
 #include "models/language/messages.h"
 #include "models/language/names.h"
+#include "models/read_file.h"
 #include "studies/language/model_findings.h"
 #include "studies/language/sought.h"
 #include "studies/language/study_messages.h"
@@ -46,7 +47,7 @@ class ExperimentReader {
     if (!report_.expect(data, Kind::string, "the name of a file in quotes")) return;
     result_.data = path_beside(report_.file(), data.text);
     errno = 0;
-    const auto content = content_of(result_.data);
+    const auto content = read_file_content(result_.data);
     if (!content) return report_.error(data, message::unreadable_file(result_.data, std::strerror(errno)));
     Diagnostics found(result_.data);
     csv_ = read_csv(*content, found);

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "models/language/messages.h"
+#include "studies/language/study_messages.h"
 
 namespace flyball {
 namespace {
@@ -21,26 +22,27 @@ void add(Diagnostic::Severity severity, Position at, std::string message, Diagno
 
 }  // namespace
 
-void take_findings(const Diagnostics& found, Position used, const std::string& as, Diagnostics& study,
+void take_findings(const Diagnostics& found, const ModelUse& use, Diagnostics& study,
                    const std::vector<PlacedOverride>& overrides) {
   std::map<std::string, int> sources;
   const auto source_of = [&](const std::string& file) {
     const auto known = sources.find(file);
-    return known != sources.end() ? known->second
-                                  : sources.emplace(file, study.add_source(file, used, as)).first->second;
+    if (known != sources.end()) return known->second;
+    return sources.emplace(file, study.add_source(file, use.at, use.name)).first->second;
   };
   for (const Diagnostic& diagnostic : found.sorted()) {
-    const auto about = std::ranges::find_if(overrides, [&](const PlacedOverride& override_) {
+    const auto about = std::ranges::find_if(overrides, [&](const PlacedOverride& placed) {
       return diagnostic.at.line == 0 &&
-             diagnostic.message.starts_with(message::in_override(override_.given.name, ""));
+             diagnostic.message.starts_with(message::in_override(placed.given.name, ""));
     });
     if (about == overrides.end()) {
       Position at = diagnostic.at;
       at.source = source_of(diagnostic.file);
       add(diagnostic.severity, at, diagnostic.message, study);
     } else {
-      const std::size_t prefix = message::in_override(about->given.name, "").size();
-      add(diagnostic.severity, about->at, diagnostic.message.substr(prefix), study);
+      std::string said = diagnostic.message.substr(message::in_override(about->given.name, "").size());
+      if (use.one_of_several) said = message::in_model(said, use.name);
+      add(diagnostic.severity, about->at, std::move(said), study);
     }
   }
 }

@@ -13,9 +13,16 @@ struct PlacedOverride {
   Position at;
 };
 
-/// Takes over what was found in a model into the diagnostics of the study that uses it at `used` under the
-/// name `as`. What is said of an override is said where the study gives it.
-void take_findings(const Diagnostics& found, Position used, const std::string& as, Diagnostics& study,
+/// How a study uses a model.
+struct ModelUse {
+  Position at;
+  std::string name;
+  bool one_of_several = false;
+};
+
+/// Takes over what was found in a model into the diagnostics of the study that uses it. What is said of an
+/// override is said where the study gives it.
+void take_findings(const Diagnostics& found, const ModelUse& use, Diagnostics& study,
                    const std::vector<PlacedOverride>& overrides = {});
 
 }  // namespace flyball

@@ -40,6 +40,14 @@ std::optional<NumberPlace> number_place(const Plan& plan, const std::string& nam
   return NumberPlace{plan.diagram->parameters[p].unit, plan.diagram->parameters[p].range};
 }
 
+bool is_structure(const Plan& plan, const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  const int block = dot == std::string::npos ? -1 : plan.diagram->find_instance(name.substr(0, dot));
+  if (block < 0) return false;
+  const auto& structure = plan.instance(block).object->specification->structure;
+  return std::ranges::find(structure, name.substr(dot + 1), &StructureSpec::key) != structure.end();
+}
+
 std::vector<std::string> number_places(const Plan& plan) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {

@@ -19,7 +19,10 @@ struct NumberPlace {
 /// and where it is computed from others.
 std::optional<NumberPlace> number_place(const Plan& plan, const std::string& name);
 
-/// The names of all of them.
+/// Whether "block.key" is a key that fixes the shape of a block.
+bool is_structure(const Plan& plan, const std::string& name);
+
+/// The names of all places of numbers.
 std::vector<std::string> number_places(const Plan& plan);
 
 /// The parameters that an expression sees which stands where `name` is set.

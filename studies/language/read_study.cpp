@@ -54,6 +54,12 @@ void check_size(const StudyDraft& draft) {
   draft.report().error(*draft.root.find(swept ? "sweep" : "monte_carlo"), message::too_many_runs(most_runs));
 }
 
+bool is_study(std::string_view text) {
+  Diagnostics unheard("");
+  const auto document = parse_toml(text, unheard);
+  return document && document->root().find("study") != nullptr;
+}
+
 std::optional<Study> read_study(std::string_view text, Diagnostics& diagnostics) {
   const auto document = parse_toml(text, diagnostics);
   if (!document) return std::nullopt;
@@ -62,7 +68,7 @@ std::optional<Study> read_study(std::string_view text, Diagnostics& diagnostics)
   const TomlValue& root = document->root();
   report.check_keys(root, "a study file",
                     {"flyball", "study", "cases", "scenarios", "sweep", "monte_carlo", "metrics",
-                     "requirements", "fit", "pareto", "plot"});
+                     "requirements", "fit", "pareto", "bisect", "plot"});
   check_version(root, report);
   Study study;
   study.file = diagnostics.file();
@@ -76,6 +82,7 @@ std::optional<Study> read_study(std::string_view text, Diagnostics& diagnostics)
   read_monte_carlo(draft);
   read_fits(draft);
   read_fronts(draft);
+  read_bisections(draft);
   read_cases(draft);
   read_plots(draft);
   check_size(draft);

@@ -29,6 +29,7 @@ void read_sweep(const StudyDraft& draft);
 void read_monte_carlo(const StudyDraft& draft);
 void read_fits(const StudyDraft& draft);
 void read_fronts(const StudyDraft& draft);
+void read_bisections(const StudyDraft& draft);
 void read_cases(const StudyDraft& draft);
 void read_plots(const StudyDraft& draft);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "blocks/rational.h"
 #include "models/language/expression.h"
 #include "models/language/messages.h"
 #include "models/language/quantity.h"
@@ -127,6 +128,12 @@ bool SettingReader::expect_in_range(const std::string& name, const TomlValue& va
   return false;
 }
 
+bool SettingReader::knows(const std::string& name) const {
+  return name.starts_with(simulation) || std::ranges::all_of(models_, [&](const StudyModel& model) {
+           return model.plan->parameter_slot(name) >= 0 || is_structure(*model.plan, name);
+         });
+}
+
 std::vector<Setting> SettingReader::read_all(const std::vector<NamedValue>& given) const {
   std::vector<Setting> settings;
   std::vector<Position> places;
@@ -138,7 +145,7 @@ std::vector<Setting> SettingReader::read_all(const std::vector<NamedValue>& give
     auto setting = read(one);
     if (!setting) continue;
     settings.push_back(*std::move(setting));
-    places.push_back(one.value->at);
+    places.push_back(knows(one.name) ? one.value->at : one.at);
   }
   if (settings.size() == given.size()) try_on_models(settings, places);
   return settings;
@@ -158,7 +165,8 @@ void SettingReader::try_on_models(const std::vector<Setting>& settings,
     Diagnostics found(model.file);
     if (auto diagram = read_diagram(model.text, found, overrides))
       make_plan(std::make_shared<const Diagram>(*std::move(diagram)), found);
-    if (found.failed()) take_findings(found, placed.front().at, model.name, diagnostics_, placed);
+    if (found.failed())
+      take_findings(found, {placed.front().at, model.name, models_.size() > 1}, diagnostics_, placed);
   }
 }
 
@@ -167,16 +175,9 @@ bool SettingReader::expect_number_place(const NamedValue& given, std::optional<i
     if (model && static_cast<int>(m) != *model) continue;
     const Plan& plan = *models_[m].plan;
     if (number_place(plan, given.name)) continue;
-    std::string wrong = message::unknown_parameter(given.name, number_places(plan));
-    const std::size_t dot = given.name.rfind('.');
-    const int block = dot == std::string::npos ? -1 : plan.diagram->find_instance(given.name.substr(0, dot));
-    if (plan.parameter_slot(given.name) >= 0) {
-      wrong = message::no_number_place(given.name);
-    } else if (block >= 0) {
-      const auto& structure = plan.instance(block).object->specification->structure;
-      if (std::ranges::find(structure, given.name.substr(dot + 1), &StructureSpec::key) != structure.end())
-        wrong = message::no_number_place(given.name);
-    }
+    const bool exists = plan.parameter_slot(given.name) >= 0 || is_structure(plan, given.name);
+    std::string wrong = exists ? message::no_number_place(given.name)
+                               : message::unknown_parameter(given.name, number_places(plan));
     report_.error(given.at, of_model(std::move(wrong), models_[m]));
     return false;
   }
@@ -232,8 +233,10 @@ std::optional<Setting> SettingReader::read_simulation(const NamedValue& given) c
   }
   const auto number = above_zero(*given.value, known->second);
   if (!number) return std::nullopt;
-  // Times of rows are exact fractions, which a double would not be.
-  if (key == "log_interval") return Setting{given.name, written(*given.value)};
+  if (key == "log_interval" && !nearest_fraction(*number)) {
+    report_.error(*given.value, message::not_exact(written(*given.value)));
+    return std::nullopt;
+  }
   return Setting{given.name, *number};
 }
 

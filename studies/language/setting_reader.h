@@ -31,6 +31,8 @@ class SettingReader {
   /// in a table, and is read as "motor.R".
   std::vector<NamedValue> named(const TomlValue& table, const std::vector<std::string>& reserved) const;
 
+  /// Whether each model, as its file has it, has a setting of this name. Other structure may have more.
+  bool knows(const std::string& name) const;
   /// One value of a setting; nothing where it is wrong, which is reported.
   std::optional<Setting> read(const NamedValue& given) const;
   /// All settings under the names of a table, which are then tried together on each model.

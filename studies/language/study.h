@@ -19,7 +19,7 @@ namespace flyball {
 struct Setting {
   std::string name;
   /// A number goes into its slot [SI]. A text takes the model to be read again with it, as --set does: modes,
-  /// sample times, formulas over the model's parameters. Of simulation.*, method and log_interval are texts.
+  /// sample times, formulas over the model's parameters.
   std::variant<double, std::string> value = 0.0;
   int model = -1;  // number in Study::models of the one that it is for; -1: all of them
 
@@ -141,6 +141,17 @@ struct ParetoDefinition {
   Position at;
 };
 
+/// [bisect.NAME]: between two values of a parameter, the one at which a requirement begins to be broken.
+struct BisectDefinition {
+  std::string name;
+  int model = 0;
+  std::string parameter;
+  double lower = 0.0, upper = 0.0;  // [SI]; the requirement holds at one end and is broken at the other
+  double tolerance = 0.0;           // of the parameter [SI]
+  int requirement = 0;              // number in Study::requirements
+  Position at;
+};
+
 /// [[plot]]
 struct PlotDefinition {
   std::string title;
@@ -165,8 +176,12 @@ struct Study {
   std::vector<std::pair<std::string, std::string>> requirements;  // name, text
   std::vector<FitDefinition> fits;
   std::vector<ParetoDefinition> fronts;
+  std::vector<BisectDefinition> bisections;
   std::vector<PlotDefinition> plots;
 };
+
+/// Whether a file is a study, not a model: it has a section [study].
+bool is_study(std::string_view text);
 
 /// Reads a study and its models. Reports everything that is wrong to `diagnostics`, in the models' files,
 /// too; then the result is empty. `text` is the content of `diagnostics.file()`.

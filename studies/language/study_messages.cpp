@@ -30,7 +30,6 @@ std::string model_named_twice(Text name) {
 std::string not_a_label(Text name) {
   return name.empty() ? "expected a name, found an empty text" : "a name has no control characters";
 }
-std::string name_taken(Text name, Text by) { return format("\"{}\" is the name of a {}, too", name, by); }
 
 std::string no_number_place(Text name) {
   return format(

@@ -16,7 +16,6 @@ std::string model_and_models();
 std::string no_models();
 std::string model_named_twice(Text name);
 std::string not_a_label(Text name);
-std::string name_taken(Text name, Text by);
 
 // Settings.
 std::string no_number_place(Text name);

@@ -7,6 +7,7 @@
 
 #include "models/diagram_files.h"
 #include "models/language/messages.h"
+#include "models/read_file.h"
 #include "studies/language/model_findings.h"
 #include "studies/language/study_messages.h"
 
@@ -57,13 +58,13 @@ class ModelReader {
     names_.push_back(name);
     StudyModel model{name, path_beside(report_.file(), file.text), "", nullptr, {}, {}};
     errno = 0;
-    const auto text = content_of(model.file);
+    const auto text = read_file_content(model.file);
     if (!text) return report_.error(file, message::unreadable_file(model.file, std::strerror(errno)));
     model.text = *text;
     Diagnostics found(model.file);
     if (auto diagram = read_diagram(model.text, found))
       model.plan = make_plan(std::make_shared<const Diagram>(*std::move(diagram)), found);
-    take_findings(found, file.at, name, diagnostics_);
+    take_findings(found, {file.at, name}, diagnostics_);
     if (model.plan) models_.push_back(std::move(model));
   }
 

@@ -65,6 +65,8 @@ class AxisReader {
 
   /// Numbers of a slot differ in range at most, which `read` has checked: the first stands for them all.
   void try_values(const Axis& axis, const std::vector<Position>& places) {
+    if (!settings_.knows(axis.name))
+      return settings_.try_on_models({{axis.name, axis.values[0]}}, {given_.at});
     bool tried = false;
     for (std::size_t k = 0; k < axis.values.size(); ++k) {
       const bool number = std::holds_alternative<double>(axis.values[k]);
@@ -107,7 +109,7 @@ class AxisReader {
     }
     const auto setting = settings_.read({given_.name, value->at, value});
     if (!setting) return std::nullopt;
-    settings_.try_on_models({*setting}, {value->at});
+    settings_.try_on_models({*setting}, {settings_.knows(axis.name) ? value->at : given_.at});
     if (const auto* number = std::get_if<double>(&setting->value)) return *number;
     as_text_ = true;
     return settings_.quantity(*value, "any");

@@ -169,4 +169,10 @@ class Device {
   Bench<double> bench_;
 };
 
+/// A sampled block that is hit every second.
+inline Device sampled(std::string_view type, Keys keys = {}) {
+  keys.insert({"sample_time", Rational(1)});
+  return Device(type, std::move(keys));
+}
+
 }  // namespace flyball::test

@@ -177,6 +177,18 @@ std::vector<Case> controller_cases() {
   return all;
 }
 
+std::vector<Case> robot_cases() {
+  const Keys sampled{{"sample_time", *Rational::fraction(1, 100)}};
+  const auto with = [&](Keys keys) {
+    keys.insert(sampled.begin(), sampled.end());
+    return keys;
+  };
+  return {
+      {"PoseIntegrator", "midpoint", with({{"method", "midpoint"s}})},
+      {"PoseIntegrator", "sideways, by Euler", with({{"method", "euler"s}, {"sideways", true}})},
+  };
+}
+
 double default_span(const std::string& type) {
   if (type == "TrigonometricFunction") return 0.9;
   // Slow enough for a difference quotient of its phase, which grows with the square of time.
@@ -192,7 +204,7 @@ std::vector<Case> cases() {
     all.push_back({type.name, "default", {}, {default_span(type.name)}});
   }
   for (auto more : {function_cases(), continuous_cases(), source_cases(), sampled_cases(), table_cases(),
-                    controller_cases()}) {
+                    controller_cases(), robot_cases()}) {
     all.insert(all.end(), more.begin(), more.end());
   }
   return all;

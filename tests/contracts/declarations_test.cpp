@@ -75,6 +75,9 @@ TEST_CASE("block types are found by their names and aliases, which are unique") 
   CHECK(names == std::set<std::string>(block_type_names().begin(), block_type_names().end()));
   CHECK(find_block_type("GAINBLK_f") == find_block_type("Gain"));
   CHECK(find_block_type("Modelica.Blocks.Continuous.Integrator") == find_block_type("Integrator"));
+  CHECK(find_block_type("Modelica.Blocks.Discrete.TransferFunction") ==
+        find_block_type("DiscreteTransferFcn"));
+  CHECK(find_block_type("DLSS") == find_block_type("DiscreteStateSpace"));
   CHECK(find_block_type("Gian") == nullptr);
 }
 

@@ -99,6 +99,23 @@ TEST_CASE("no depth of nesting exhausts the stack") {
   CHECK_THAT(to_string(diagnostics.sorted().at(0)), Catch::Contains("the expression is too long"));
 }
 
+TEST_CASE("no line and no wire is longer than what can be told about it") {
+  const auto list = [](std::size_t length) {
+    const std::string start = "flyball = 1\nx = [";
+    return start + std::string(length - std::string("x = [").size() - 1, ' ') + "]\n[blocks]\n";
+  };
+  CHECK_THAT(said_about("m", list(1'000'000)), Catch::Contains("has no key"));
+  CHECK(said_about("m", list(1'000'001)) ==
+        "m:2:1000001: error: the line is longer than 1000000 bytes; a list may stand on several lines\n");
+  const std::string wide(1'000'000, 'x');
+  CHECK(said_about("m", "# \u00E9" + wide) ==
+        "m:1:1000000: error: the line is longer than 1000000 bytes; a list may stand on several lines\n");
+  std::string wire = "a";
+  while (wire.size() <= 100'000) wire += "->b";
+  CHECK(said_about("m", "flyball = 1\n[blocks]\n[diagram]\nwires = [\"" + wire + "\"]\n") ==
+        "m:4:10: error: the wire is longer than 100000 bytes; write several\n");
+}
+
 TEST_CASE("each override is checked as if it stood in the file") {
   const std::string model = R"toml(flyball = 1
 [parameters]

@@ -1,9 +1,8 @@
 // Whatever happens to a model's text, reading it gives a diagram or an error with a position, and never
 // crashes.
-#include <random>
-
 #include "models/diagram.h"
 #include "tests/catch.h"
+#include "tests/mutator.h"
 
 using namespace flyball;
 
@@ -51,64 +50,6 @@ solver = { method = "dp5", rtol = 1e-8, max_step = "0.1 s" }
 log_interval = "1/60 s"
 )toml";
 
-class Mutator {
- public:
-  explicit Mutator(unsigned seed) : random_(seed) {}
-
-  std::string mutate(std::string text) {
-    const std::size_t at = text.empty() ? 0 : static_cast<std::size_t>(below(text.size()));
-    switch (below(11)) {
-      case 0:
-        return edit_lines(text, [&](auto& lines) { lines.erase(lines.begin() + below(lines.size())); });
-      case 1:
-        return edit_lines(text, [&](auto& lines) {
-          const std::string line = lines[below(lines.size())];
-          lines.insert(lines.begin() + below(lines.size()), line);
-        });
-      case 2:
-        return edit_lines(
-            text, [&](auto& lines) { std::swap(lines[below(lines.size())], lines[below(lines.size())]); });
-      case 3:
-        text[below(text.size())] = static_cast<char>(below(256));
-        return text;
-      case 4:
-        text[below(text.size())] = "\"'[]{}=.,()->+*/^#\n0eE "[below(24)];
-        return text;
-      case 5:
-        return text.insert(at, 1, '\0');
-      case 6:
-        return text.insert(at, "\xEF\xBB\xBF");
-      case 7:
-        return text.insert(at, "\r\n");
-      case 8:
-        return text.insert(at, std::string(static_cast<std::size_t>(below(200)), "[{("[below(3)]));
-      case 9:  // another type of value
-        return text.insert(std::min(text.find("= ", at), text.size()), "= [1, \"two\", { x = true }] #");
-      default:
-        return text.substr(0, below(text.size()));
-    }
-  }
-
- private:
-  int below(std::size_t n) { return static_cast<int>(random_() % n); }
-
-  template <class Edit>
-  static std::string edit_lines(const std::string& text, Edit edit) {
-    std::vector<std::string> lines;
-    std::size_t start = 0;
-    for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', start)) {
-      lines.push_back(text.substr(start, end + 1 - start));
-      start = end + 1;
-    }
-    if (!lines.empty()) edit(lines);
-    std::string result;
-    for (const std::string& line : lines) result += line;
-    return result;
-  }
-
-  std::mt19937 random_;
-};
-
 }  // namespace
 
 TEST_CASE("the text that is mutated is a valid model") {
@@ -122,7 +63,7 @@ TEST_CASE("the text that is mutated is a valid model") {
 TEST_CASE("mutations of a model give a diagram or positioned errors") {
   int refused = 0;
   for (unsigned seed = 0; seed < 5000; ++seed) {
-    Mutator mutator(seed);
+    test::Mutator mutator(seed);
     std::string text = mutator.mutate(valid);
     // Every other text gets a second mutation, so that mistakes meet.
     if (seed % 2 == 1 && !text.empty()) text = mutator.mutate(text);

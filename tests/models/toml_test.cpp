@@ -1,5 +1,7 @@
 #include "models/language/toml.h"
 
+#include <array>
+
 #include "tests/catch.h"
 
 using namespace flyball;
@@ -47,6 +49,24 @@ TEST_CASE("numbers keep how they were written") {
   CHECK(document.root().find("b")->text == "1e-3");
   CHECK(document.root().find("c")->items[0].text == "0.10");
   CHECK(document.root().find("c")->items[1].text == "-2.0");
+}
+
+TEST_CASE("columns count characters, however long the line") {
+  // Characters of one to four bytes, in an order that is not the same at each multiple of a power of two.
+  std::string text = "a\n";
+  std::vector<std::size_t> starts;
+  for (int k = 0; k < 1000; ++k) {
+    starts.push_back(text.size());
+    text += std::array{"x", "\u00E9", "\u20AC", "\U0001F600", "yz"}[k % 7 % 5];
+    if (k % 7 % 5 == 4) starts.push_back(text.size() - 1);
+  }
+  const SourceText source(text);
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const Position at{2, static_cast<int>(k) + 1};
+    CHECK(source.position(starts[k]) == at);
+    CHECK(source.offset(at) == starts[k]);
+  }
+  CHECK(source.offset({2, static_cast<int>(starts.size()) + 5}) == text.size());
 }
 
 TEST_CASE("columns count characters, with any kind of quotes") {

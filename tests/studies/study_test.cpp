@@ -66,7 +66,7 @@ solver = { simulation = { method = "rk4", rtol = 1e-3, stop = "1 min", log_inter
   CHECK(solver[0] == Setting{"simulation.method", "rk4"});
   CHECK(number(solver[1]) == 1e-3);
   CHECK(number(solver[2]) == 60.0);
-  CHECK(text(solver[3]) == "1/60 s");
+  CHECK(number(solver[3]) == 1.0 / 60.0);
 }
 
 TEST_CASE("axes of a sweep are lists, ranges and logarithmic ranges") {
@@ -134,4 +134,11 @@ soft = { Kp = "1 V" }
   const Study table =
       study_of("flyball = 1\nstudy.models = { a = \"parts/servo.toml\", b = \"parts/servo.toml\" }\n");
   CHECK(table.models[1].name == "b");
+}
+
+TEST_CASE("a file with a section [study] is a study") {
+  CHECK(is_study("flyball = 1\n[study]\nmodel = 3\n"));
+  CHECK(is_study("study.model = \"m.toml\""));
+  CHECK_FALSE(is_study("flyball = 1\n[blocks]\nstudy = { type = \"Constant\" }\n"));
+  CHECK_FALSE(is_study("[study"));
 }

@@ -42,6 +42,8 @@ expect 0 check --units "$arc"
 says out "signal  unit"
 says out "H       m"
 says out "K_gamma    1"
+expect 0 check --units "$sources/models/benchmarks/robot.toml"
+says out "robot.omega       rad/s"
 expect 0 check --units --json "$arc"
 says out '"name": "K_H",'
 says out '"unit": "1/m"'
@@ -53,6 +55,35 @@ says err "error: K_H is in 1/s, but the diagram needs it in 1/m"
 
 expect 0 check --help
 says out "Example:"
+
+# A file with [study] is a study.
+cat >study.toml <<TOML
+flyball = 1
+[study]
+model = "arc.toml"
+[sweep]
+K_gamma = [0.5, 1.0, 2.0]
+TOML
+cp "$arc" arc.toml
+expect 0 check study.toml arc.toml
+says out "study.toml: ok: 1 model, 1 case, 1 scenario, 3 runs"
+says out "arc.toml: ok: 8 blocks"
+expect 0 check study.toml --json
+says out '"runs": 3'
+sed -i -e 's/K_gamma = /K_gama = /' study.toml
+sed -i -e 's/"Sum"/"Smu"/' arc.toml
+expect 3 check study.toml
+says err "arc.toml:"
+says err 'error: unknown block type "Smu"; did you mean "Sum"?'
+says err 'study.toml:3:9: note: used here, as "arc"'
+cp "$arc" arc.toml
+expect 3 check study.toml --json
+says err 'study.toml:5:1: error: there is no parameter "K_gama"; did you mean "K_gamma"?'
+says out '"ok": false'
+sed -i -e 's/K_gama = /K_gamma =    /' study.toml
+expect 1 format --check study.toml
+expect 0 format study.toml
+expect 0 check study.toml
 
 # Results are compared with their metadata.
 expect 0 run "$arc" --quiet --output "a result.csv" --stop 1
