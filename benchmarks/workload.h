@@ -36,6 +36,7 @@ void add_sampled(std::vector<Workload>& workloads);
 void add_chain(std::vector<Workload>& workloads);
 void add_events(std::vector<Workload>& workloads);
 void add_stepper(std::vector<Workload>& workloads);
+void add_fit(std::vector<Workload>& workloads);
 void add_sweep(std::vector<Workload>& workloads);
 
 }  // namespace flyball::bench

@@ -43,7 +43,7 @@ ceres::Solver::Options solver_options(const LeastSquaresProblem& problem) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = problem.max_iterations;
-  options.function_tolerance = 1e-12;
+  options.function_tolerance = 1e-15;
   options.parameter_tolerance = 1e-10;
   // A gradient has the size of the data: no absolute bound fits all.
   options.gradient_tolerance = 0.0;
