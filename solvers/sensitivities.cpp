@@ -125,9 +125,10 @@ void Sensitivities::Run::run(std::span<const double> parameters) {
     more = simulator.advance();
   }
   if (simulator.time() < settings_.stop) {
-    throw SimulationError(SimulationError::Kind::asserted, simulator.time(),
-                          fmt::format("the run ended at t = {} s, before the last time that is asked for ({})",
-                                      simulator.time(), simulator.end_reason()));
+    throw SimulationError(
+        SimulationError::Kind::asserted, simulator.time(),
+        fmt::format("the run ended at t = {} s, before the last time that is asked for ({})",
+                    simulator.time(), simulator.end_reason()));
   }
   for (auto& pass : passes_) pass->finish(settings_.stop);
 }
