@@ -50,7 +50,8 @@ std::string json_numbers(const std::vector<double>& numbers, int digits) {
 bool is_number(std::string_view cell) {
   double value = 0.0;
   if (cell.starts_with('+')) cell.remove_prefix(1);
-  return std::from_chars(cell.data(), cell.data() + cell.size(), value).ec == std::errc();
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return error == std::errc() && end == cell.data() + cell.size();
 }
 
 /// How finely curves may be divided so that all of a page's fit.

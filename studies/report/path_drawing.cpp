@@ -53,19 +53,20 @@ std::string grid(const PathScale& scale, const std::string& unit) {
   std::string svg = "<g class=\"grid\">";
   const auto out = std::back_inserter(svg);
   const double right = scale.width, bottom = scale.height - margin;
+  // In labels, the sum with 0 makes a plain zero of -0.
   for (double k = std::ceil((margin - scale.left) / scale.scale / tick); scale.x(k * tick) <= right - 8;
        ++k) {
     const double x = scale.x(k * tick);
     fmt::format_to(out, "<line x1=\"{0:.2f}\" y1=\"8\" x2=\"{0:.2f}\" y2=\"{1:.2f}\"/>", x, bottom);
     fmt::format_to(out, "<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">{:.6g}</text>", x,
-                   bottom + 18, k * tick);
+                   bottom + 18, k * tick + 0.0);
   }
   for (double k = std::ceil((scale.bottom - bottom) / scale.scale / tick); scale.y(k * tick) >= 8; ++k) {
     const double y = scale.y(k * tick);
     fmt::format_to(out, "<line x1=\"{1}\" y1=\"{0:.2f}\" x2=\"{2:.2f}\" y2=\"{0:.2f}\"/>", y, margin,
                    right - 8);
     fmt::format_to(out, "<text x=\"{}\" y=\"{:.2f}\" text-anchor=\"end\">{:.6g}</text>", margin - 6, y + 4,
-                   k * tick);
+                   k * tick + 0.0);
   }
   fmt::format_to(out, "<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"end\">{}</text></g>", right - 8,
                  bottom + 36, unit.empty() ? "" : "[" + xml_text(unit) + "]");

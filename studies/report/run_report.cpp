@@ -180,10 +180,10 @@ HtmlPage run_page(const RunReportSources& sources) {
   const auto& requirements = facts.assessment.requirements;
   if (!requirements.empty()) {
     const auto failed = facts.assessment.failed();
-    page.verdicts.emplace_back(failed == 0
-                                   ? fmt::format("all {} requirements passed", requirements.size())
-                                   : fmt::format("{} of {} requirements failed", failed, requirements.size()),
-                               failed == 0);
+    page.verdicts.emplace_back(
+        failed == 0 ? fmt::format("{} of {} requirements passed", requirements.size(), requirements.size())
+                    : fmt::format("{} of {} requirements failed", failed, requirements.size()),
+        failed == 0);
   }
   if (!facts.assessment.empty()) page.sections.push_back(results(facts.assessment));
   if (!sources.curves.time.empty() && !facts.columns.empty()) page.sections.push_back(figures(sources));

@@ -72,10 +72,10 @@ class StudyReport {
                             cell("text"), cell("worst margin"), cell("unit"), cell("message")});
       table.marks.push_back(holds ? Mark::passed : Mark::failed);
     }
-    page.verdicts.emplace_back(broken == 0
-                                   ? fmt::format("all {} requirements hold", table.rows.size())
-                                   : fmt::format("{} of {} requirements broken", broken, table.rows.size()),
-                               broken == 0);
+    page.verdicts.emplace_back(
+        broken == 0 ? fmt::format("{} of {} requirements hold", table.rows.size(), table.rows.size())
+                    : fmt::format("{} of {} requirements broken", broken, table.rows.size()),
+        broken == 0);
     page.sections.push_back({"Requirements", {std::move(table)}});
   }
 
