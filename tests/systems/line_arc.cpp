@@ -70,6 +70,30 @@ Turn turn_of(const Overrides& overrides) {
 
 }  // namespace
 
+TEST_CASE("Arc error loop: where it ends without K_H, and far from its arc") {
+  const auto end = [](const Overrides& overrides, double t) {
+    Model model = line_arc("arc_error_loop", overrides);
+    model.settings.stop = t;
+    Run run(model);
+    run.finish();
+    return std::pair{run["H.x"] / mm, run["gamma.x"]};
+  };
+  // Half of the last digit, and some hundred tolerances of 1e-8 of a distance of up to 4 m.
+  const double H = 0.5e-6 + 4e-3, gamma = 1e-6;
+  // H0 + L/(2 K_gamma) Si(gamma0)
+  const auto stays = end({{"K_H", "0 1/m"}, {"K_gamma", "1"}, {"gamma.initial", "0.6"}}, 40.0);
+  CHECK(stays.first == Approx(138.219321).margin(1e-4));
+  // The other equilibria: gamma = k pi, H = -k pi K_gamma/K_H; those of even k attract.
+  const auto once = end({{"H.initial", "2 m"}}, 60.0), twice = end({{"H.initial", "4 m"}}, 60.0);
+  CHECK(once.first == Approx(1570.796).margin(H));
+  CHECK(once.second == Approx(-2.0 * M_PI).margin(gamma));
+  CHECK(twice.first == Approx(3141.593).margin(H));
+  CHECK(twice.second == Approx(-4.0 * M_PI).margin(gamma));
+  const auto turned = end({{"gamma.initial", "0.3"}, {"K_gamma", "sqrt(1.2)"}}, 2.0);
+  CHECK(turned.first == Approx(13.8323915).margin(1e-5));
+  CHECK(turned.second == Approx(-0.03795434).margin(1e-8));
+}
+
 TEST_CASE("Arc navigation: the table of old and improved law") {
   struct Row {
     const char* name;
