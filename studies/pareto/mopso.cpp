@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <pagmo/bfe.hpp>
+#include <pagmo/population.hpp>
 #include <pagmo/utils/multi_objective.hpp>
 #include <utility>
 #include <vector>
@@ -113,7 +115,7 @@ struct Particle {
 
 class Swarm {
  public:
-  Swarm(const pagmo::population& from, Draw& draw, const std::optional<pagmo::bfe>& batch)
+  Swarm(const pagmo::population& from, Draw& draw, const std::shared_ptr<const pagmo::bfe>& batch)
       : problem_(from.get_problem()), draw_(draw), batch_(batch), bounds_(problem_.get_bounds()) {
     for (std::size_t i = 0; i < from.size(); ++i) {
       const Point point{from.get_x()[i], from.get_f()[i]};
@@ -190,7 +192,7 @@ class Swarm {
 
   const pagmo::problem& problem_;
   Draw& draw_;
-  const std::optional<pagmo::bfe>& batch_;
+  const std::shared_ptr<const pagmo::bfe>& batch_;
   std::pair<Numbers, Numbers> bounds_;
   std::vector<Particle> particles_;
 };
@@ -198,6 +200,8 @@ class Swarm {
 }  // namespace
 
 Mopso::Mopso(unsigned generations, unsigned seed) : generations_(generations), random_(seed) {}
+
+void Mopso::set_bfe(const pagmo::bfe& batch) { batch_ = std::make_shared<const pagmo::bfe>(batch); }
 
 pagmo::population Mopso::evolve(pagmo::population population) const {
   if (population.size() == 0) return population;

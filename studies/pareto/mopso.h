@@ -1,10 +1,13 @@
 #pragma once
 
-#include <optional>
-#include <pagmo/bfe.hpp>
-#include <pagmo/population.hpp>
+#include <memory>
 #include <random>
 #include <string>
+
+namespace pagmo {
+class bfe;
+class population;
+}  // namespace pagmo
 
 namespace flyball {
 
@@ -22,13 +25,13 @@ class Mopso {
   pagmo::population evolve(pagmo::population swarm) const;
   void set_seed(unsigned seed) { random_.seed(seed); }
   /// Evaluates whole generations from now on.
-  void set_bfe(const pagmo::bfe& batch) { batch_ = batch; }
+  void set_bfe(const pagmo::bfe& batch);
   std::string get_name() const { return "MOPSO: archive-based multi-objective particle swarm"; }
 
  private:
   unsigned generations_;
   mutable std::mt19937 random_;
-  std::optional<pagmo::bfe> batch_;
+  std::shared_ptr<const pagmo::bfe> batch_;
 };
 
 }  // namespace flyball

@@ -66,6 +66,11 @@ pagmo::algorithm make_algorithm(const ParetoDefinition& definition, unsigned gen
     return pagmo::algorithm(pagmo::moead(generations, "low discrepancy", "tchebycheff", neighbours, 1.0, 0.5,
                                          20.0, 0.9, 2, true, seed));
   }
+  if (definition.algorithm == "mopso") {
+    Mopso mopso(generations, seed);
+    mopso.set_bfe(batch);
+    return pagmo::algorithm(mopso);
+  }
   throw std::invalid_argument(fmt::format("there is no algorithm \"{}\"", definition.algorithm));
 }
 

@@ -109,7 +109,7 @@ bash job.sh join >out || fail "join"
 cmp -s cases-results/runs.csv cluster/runs.csv || fail "the cluster's runs.csv differs"
 
 # An interrupted study tells by the usual status, and goes on.
-sed 's/runs = 6/runs = 4000/; /^\[\[plot\]\]/,$d' cases.toml >long.toml
+sed 's/runs = 6/runs = 40000/; /^\[\[plot\]\]/,$d' cases.toml >long.toml
 env --default-signal=INT "$flyball" study long.toml >out 2>err &
 pid=$!
 sleep 0.3
