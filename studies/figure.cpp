@@ -62,7 +62,7 @@ std::string panel_script(const Panel& panel, bool last) {
     const std::string value = curve.factor == 1.0 ? fmt::format("{}", curve.column)
                                                   : fmt::format("(${}*{})", curve.column, curve.factor);
     script += fmt::format("{}{} using 1:{} skip 1 with {} {}", is_first ? " " : ", \\\n     ",
-                          gnuplot_quoted(curve.csv), value, curve.points ? "points pt 7 ps 0.4" : "lines",
+                          gnuplot_quoted(curve.csv), value, curve.points ? "points pt 7 ps 0.7" : "lines",
                           legend ? "title " + gnuplot_quoted(curve.label) : "notitle");
   }
   return script + '\n';

@@ -257,7 +257,8 @@ void Fit::identify_parameters() {
   if (!objective_.evaluate(best_.x, residuals.data(), jacobian.data())) return;
   keep_curves(&FittedSignal::after);
   const auto rows = static_cast<std::size_t>(objective_.data_size());
-  identify({{residuals.data(), rows}, {jacobian.data(), rows * unknowns_.size()}, scales}, result_);
+  const bool exact = objective_.gradient() != "numeric";
+  identify({{residuals.data(), rows}, {jacobian.data(), rows * unknowns_.size()}, scales, exact}, result_);
 }
 
 FitResult Fit::run() {

@@ -62,10 +62,14 @@ TEST_CASE("Fit: the least integral of the squared error is at a damping of 0.5, 
   CHECK(std::fabs(found(least("integral(x^2)", 1.0), "zeta").value - 0.5) < 1e-5);
 }
 
-TEST_CASE("Fit: the least integral of time and absolute error is at a damping of 0.752442, and is 1.951859") {
+TEST_CASE(
+    "Fit: the least integral of time and absolute error is at a damping of 0.7524441, and is 1.951859") {
   const FitResult result = least("final(itae)", 1.0);
-  CHECK(std::fabs(found(result, "zeta").value - 0.752442) < 2e-6);
-  CHECK(std::fabs(2.0 * result.cost - 1.951859) < 1e-6);
+  // The closed form between zeros of x has its minimum at 0.752444093; 0.752442, which is quoted, is as good
+  // to ten digits of the integral.
+  CHECK(std::fabs(found(result, "zeta").value - 0.752444093) < 1e-6);
+  CHECK(std::fabs(found(result, "zeta").value - 0.752442) < 3e-6);
+  CHECK(std::fabs(2.0 * result.cost - 1.951859456) < 1e-7);
 }
 
 TEST_CASE("Fit: a requirement pulls until it holds, beside data and metrics") {

@@ -103,7 +103,8 @@ const std::vector<Regression> regressions = {
      {{1.0, 10.0, 500.0}, {1.5, 5.0, 450.0}},
      {1.5543827178, 4.0888321754, 4.5154121844e2},
      {1.5408051163e-2, 4.6803020753e-2, 4.6800518816e-2},
-     1.4635887487e-3},
+     1.4635887487e-3,
+     {10.0, 50.0, 600.0}},
 };
 
 FitCase regression_case(const Regression& r, const std::vector<double>& start,
@@ -141,7 +142,7 @@ TEST_CASE("Fit: nonlinear regressions of NIST have their certified values, error
     for (const std::vector<double>& start : r.starts) {
       const TemporaryFolder folder;
       FitCase c = regression_case(r, start, folder);
-      // From NIST's first start of BoxBOD, the way down leads to infinity; others begin elsewhere.
+      // From NIST's first starts of BoxBOD and Eckerle4, the way down leads to infinity.
       for (std::size_t p = 0; p < r.upper.size(); ++p) {
         c.fit.parameters[p].lower = 0.0;
         c.fit.parameters[p].upper = r.upper[p];
