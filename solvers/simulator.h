@@ -19,7 +19,8 @@ namespace flyball {
 struct LogOptions {
   bool enabled = true;
   EventRows event_rows = EventRows::both;
-  std::vector<double> times = {};  // [s], ascending: rows there instead of at SimulationSettings::log_interval
+  std::vector<double> times =
+      {};  // [s], ascending: rows there instead of at SimulationSettings::log_interval
 };
 
 /// What a run did, for its summary and the result's metadata.
