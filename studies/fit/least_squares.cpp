@@ -2,6 +2,7 @@
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <cmath>
@@ -86,9 +87,19 @@ std::string reason_of(const ceres::Solver::Summary& summary, int max_iterations)
   return summary.message;
 }
 
+/// Ceres logs failures to standard error, whatever its options say; here they are part of the answer.
+void silence_log() {
+  static const bool once = [] {
+    FLAGS_minloglevel = google::GLOG_FATAL;
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
 }  // namespace
 
 LeastSquaresSolution minimise(const LeastSquaresProblem& problem) {
+  silence_log();
   LeastSquaresSolution solution;
   solution.x = problem.start;
   for (std::size_t i = 0; i < solution.x.size(); ++i)

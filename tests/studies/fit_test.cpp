@@ -324,11 +324,10 @@ TEST_CASE("Fit: what progress says ends the search, and what was found by then i
   std::vector<double> costs;
   const FitResult result = run_fit(c.study, c.fit, evaluator, 1, [&](int iteration, double cost) {
     costs.push_back(cost);
-    return iteration < 6;
+    return iteration == 0 || cost == costs.front();  // until a step is taken
   });
   CHECK_FALSE(result.converged);
   CHECK(result.reason == "interrupted");
-  CHECK(costs.size() == 7);
   CHECK(std::ranges::is_sorted(costs, std::greater<>()));
   CHECK(result.cost == costs.back());
   CHECK(result.cost < result.cost_before);
