@@ -26,10 +26,10 @@ struct CrossTrackError : RunningTerms {
   Held bx = held_if(has_way, "to_x", 0.0, "m", "the way at the last hit");
   Held by = held_if(has_way, "to_y", 0.0, "m", "the way at the last hit");
 
-  // A robot has come here on the way of the last hit, and may choose another one now. At the first hit it has
-  // not come from anywhere: that one does not count.
+  // A robot has come here on the way of the last hit, and may choose another one now. To the first hit no way
+  // has led: it shows 0, and does not count.
   void outputs(auto& v) const {
-    const auto error = has_way ? off_way(v) : off_path(v);
+    const auto error = v[begun] * (has_way ? off_way(v) : off_path(v));
     v[distance] = error;
     show(v, error, counted(v) * v[begun]);
   }
@@ -46,9 +46,7 @@ struct CrossTrackError : RunningTerms {
  private:
   auto place(auto& v) const { return Point<std::decay_t<decltype(v.time())>>{v[pose.x], v[pose.y]}; }
   auto off_way(auto& v) const {
-    const auto last = [&](Held before, Input now) { return select(v.on(begun), v[before], v[now]); };
-    const decltype(place(v)) a{last(ax, previous.x), last(ay, previous.y)};
-    const decltype(place(v)) b{last(bx, waypoint.x), last(by, waypoint.y)};
+    const decltype(place(v)) a{v[ax], v[ay]}, b{v[bx], v[by]};
     return from == From::line ? abs(right_of_line(place(v), a, b)) : distance_from_segment(place(v), a, b);
   }
   auto off_path(auto& v) const {

@@ -18,7 +18,8 @@ struct LinearVelocityError : RunningTerms {
     auto total = v[speed] + v.number(0.0);
     for (int k = 0; k < last.size(); ++k) total = total + v[last[k]];
     // At first there were fewer hits.
-    const auto size = abs(total / clamp(v[hits] + 1.0, v.number(1.0), v.number(window)) - v[reference]);
+    const auto hits_seen = window > 1 ? clamp(v[hits] + 1.0, v.number(1.0), v.number(window)) : v.number(1.0);
+    const auto size = abs(total / hits_seen - v[reference]);
     v[error] = size;
     show(v, size, counted(v));
   }
