@@ -43,7 +43,8 @@ Json structure(const StructureSpec& key) {
   } else if (key.fallback == "true" || key.fallback == "false") {
     json["type"] = "boolean";
   } else if (key.fallback.starts_with('[')) {
-    json["type"] = "array";
+    // A list of one may be written as its value.
+    json["type"] = {"array", "number", "string"};
   }
   return json;
 }
