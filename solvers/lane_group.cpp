@@ -1,5 +1,7 @@
 #include "solvers/lane_group.h"
 
+#include <algorithm>
+
 namespace flyball {
 namespace {
 
@@ -44,6 +46,7 @@ void LaneGroup<isa>::load(int lane, const Workspace<double>& from, bool counts) 
     up[k] = with_lane(up[k], lane, from.sides[k] > 0);
     down[k] = with_lane(down[k], lane, from.sides[k] < 0);
   }
+  std::copy_n(states(), next.size(), next.begin());
   objects = from.objects;
   next_objects.resize(objects.size());
   active_ = with_lane(active_, lane, counts);

@@ -147,17 +147,14 @@ void LaneInstant<isa>::sweep(const Hits& hits) {
   group_.drop_bad_outputs();
 }
 
-/// Where nothing else is due: samples in all lanes, which no unsampled block sees. The next sweep looks
-/// whether they are finite.
+/// Where nothing else is due: samples in all lanes, which no unsampled block sees. What is staged of held
+/// values is what they are, until a handler writes it. The next sweep looks whether they are finite.
 template <Isa isa>
 void LaneInstant<isa>::sample(const Hits& hits) {
-  const int first_state = group_.plan.layout.first_state;
-  for (const auto& [slot, count] : hits.staged)
-    std::copy_n(&group_.values[slot], count, &group_.next[slot - first_state]);
   const Frame<T> f = group_.frame();
   for (const auto& sample : hits.samples) sample.kernel(sample.self, f, sample.index);
   for (const auto& [slot, count] : hits.staged)
-    std::copy_n(&group_.next[slot - first_state], count, &group_.values[slot]);
+    std::copy_n(&group_.next[slot - group_.plan.layout.first_state], count, &group_.values[slot]);
 }
 
 template <Isa isa>

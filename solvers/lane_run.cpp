@@ -164,7 +164,7 @@ void LaneRunOn<isa>::instant(double t, double tick, bool located) {
   const bool was_asked = logs() && asked_.is(log_position_, t);
   const bool jumps = logs() && running_ && log_options_.event_rows != EventRows::none;
   if (jumps) group_.run(group_.logs);
-  for (int lane = 0; lane < lane_count; ++lane) {
+  for (int lane = 0; logs() && lane < lane_count; ++lane) {
     rows_before_[lane].clear();
     if (jumps) read(lane, rows_before_[lane]);
   }
@@ -193,7 +193,8 @@ LaneMask LaneRunOn<isa>::ending() const {
 
 template <Isa isa>
 void LaneRunOn<isa>::end(LaneMask lanes) {
-  if (lanes != 0) group_.run(group_.logs);
+  if (lanes == 0) return;
+  group_.run(group_.logs);
   for (int lane = 0; lane < lane_count; ++lane) {
     if (((lanes >> lane) & 1u) == 0) continue;
     const bool fails = std::ranges::any_of(plan_.run_ends, [&](int slot) {

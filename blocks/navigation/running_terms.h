@@ -22,7 +22,8 @@ struct RunningTerms : Block {
     const auto n = max(v[hits] + counts, v.number(1.0));
     v[mean] = (v[sum] + counts * error) / n;
     // The root of 0 has no derivative.
-    v[rms] = sqrt(max((v[squares] + counts * error * error) / n, v.number(smallest)));
+    const auto more = counts * error;
+    v[rms] = sqrt((max(v[squares], v.number(0.0)) + more * more) / n + smallest);
     v[largest] = max(v[top], counts * error);
   }
   void keep(auto& v, const auto& error, const auto& counts) const {
