@@ -162,6 +162,15 @@ struct Missing {
   }
 };
 
+/// A process that was killed while it wrote leaves parts of files (write_file). Nobody else writes here.
+void remove_parts(const fs::path& folder) {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with('.') && name.ends_with(".part")) fs::remove(entry.path(), error);
+  }
+}
+
 /// Throws std::invalid_argument where this program has no such search.
 void require(bool there, const std::string& name) {
   if (!there) throw std::invalid_argument(name + ": this program does not search");
@@ -178,6 +187,7 @@ class StudyRunner {
         store_(store_file(options.folder), Store::Mode::write, store_columns(study)) {}
 
   StudyRun run() {
+    remove_parts(options_.folder);
     const CaseFinder finder(study_, keys_, &store_);
     StudyRun result;
     result.searches = finder.missing();

@@ -86,7 +86,7 @@ says err "broken.toml:"
 is_missing broken-results
 
 # 4: all runs fail; each is a row
-root_model >root.toml
+root_model | sed 's|sqrt(1 - u)|sqrt(1 - u/(1 s))|' >root.toml
 printf 'flyball = 1\n[study]\nmodel = "root.toml"\n[metrics]\nlast = "final(x)"\n' >failing.toml
 expect 4 study failing.toml --quiet
 says err "warning: 1 of 1 run failed"
@@ -109,7 +109,7 @@ bash job.sh join >out || fail "join"
 cmp -s cases-results/runs.csv cluster/runs.csv || fail "the cluster's runs.csv differs"
 
 # An interrupted study tells by the usual status, and goes on.
-sed 's/runs = 6/runs = 4000/; /^\[\[plot\]\]/,$d' cases.toml >long.toml
+sed 's/runs = 6/runs = 40000/; /^\[\[plot\]\]/,$d' cases.toml >long.toml
 env --default-signal=INT "$flyball" study long.toml >out 2>err &
 pid=$!
 sleep 0.3

@@ -96,7 +96,7 @@ TEST_CASE("A run that cannot be is a record with its reason") {
         std::string::npos);
   CHECK(reason({{"simulation.rtol", 0.0}}) == "simulation.rtol: \"0\": expected a value above 0 1, found 0");
   CHECK(reason({{"simulation.rtol", std::string("tight")}}) ==
-        "simulation.rtol: \"tight\": there is no unit");
+        "simulation.rtol: \"tight\": unknown name \"tight\" (at character 1)");
   CHECK(reason({{"simulation.tol", 1.0}}) == "there is no setting simulation.tol of a simulation");
 }
 
