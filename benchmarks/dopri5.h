@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 namespace flyball::bench {
 
@@ -49,19 +50,30 @@ class Controller {
 }  // namespace dopri5
 
 /// A quartic over one step, in powers of the fraction theta of the step.
-struct Quartic {
-  double c0, c1, c2, c3, c4;
-  double operator()(double theta) const {
-    return c0 + theta * (c1 + theta * (c2 + theta * (c3 + theta * c4)));
-  }
+template <class T>
+struct QuarticOf {
+  T c0, c1, c2, c3, c4;
+  T operator()(double theta) const { return c0 + theta * (c1 + theta * (c2 + theta * (c3 + theta * c4))); }
 };
+using Quartic = QuarticOf<double>;
+
+/// The value of a number or of a Jet.
+template <class T>
+double number(const T& x) {
+  if constexpr (std::is_same_v<T, double>) {
+    return x;
+  } else {
+    return x.a;
+  }
+}
 
 /// What a good engineer writes for one small system: Dormand-Prince with everything inlined, no heap, the
-/// step size kept across hits and events. `Rates` is called as rates(t, x, dx).
-template <int n, class Rates>
+/// step size kept across hits and events. `Rates` is called as rates(t, x, dx). On Jets, steps are chosen by
+/// values.
+template <int n, class Rates, class T = double>
 class Dopri5 {
  public:
-  using State = std::array<double, n>;
+  using State = std::array<T, n>;
 
   Dopri5(const Rates& system, double rtol, double atol, double first_step, double max_step)
       : rates(system), rtol_(rtol), atol_(atol), max_step_(max_step), next_(first_step) {}
@@ -101,11 +113,11 @@ class Dopri5 {
   const State& state() const { return x1_; }
 
   /// The continuous extension of one component over the last step.
-  Quartic extension(int i) const {
-    const double change = x1_[i] - x0_[i];
-    const double first = size_ * k_[0][i] - change;
-    const double last = change - size_ * k_[6][i] - first;
-    double bubble = dopri5::d[0] * k_[0][i];
+  QuarticOf<T> extension(int i) const {
+    const T change = x1_[i] - x0_[i];
+    const T first = size_ * k_[0][i] - change;
+    const T last = change - size_ * k_[6][i] - first;
+    T bubble = dopri5::d[0] * k_[0][i];
 #pragma GCC unroll 8
     for (int j = 2; j < 7; ++j) bubble += dopri5::d[j] * k_[j][i];
     bubble *= size_;
@@ -127,10 +139,10 @@ class Dopri5 {
     double sum = 0.0;
 #pragma GCC unroll 8
     for (int i = 0; i < n; ++i) {
-      double error = dopri5::e[0] * k_[0][i];
+      double error = dopri5::e[0] * number(k_[0][i]);
 #pragma GCC unroll 8
-      for (int j = 2; j < 7; ++j) error += dopri5::e[j] * k_[j][i];
-      const double scale = atol_ + rtol_ * std::max(std::fabs(x0_[i]), std::fabs(x1_[i]));
+      for (int j = 2; j < 7; ++j) error += dopri5::e[j] * number(k_[j][i]);
+      const double scale = atol_ + rtol_ * std::max(std::fabs(number(x0_[i])), std::fabs(number(x1_[i])));
       const double weighted = size_ * error / scale;
       sum += weighted * weighted;
     }
@@ -141,7 +153,7 @@ class Dopri5 {
   void stage(State& x) {
 #pragma GCC unroll 8
     for (int i = 0; i < n; ++i) {
-      double sum = dopri5::a[s][0] * k_[0][i];
+      T sum = dopri5::a[s][0] * k_[0][i];
 #pragma GCC unroll 8
       for (int j = 1; j < s; ++j) {
         if (dopri5::a[s][j] != 0.0) sum += dopri5::a[s][j] * k_[j][i];

@@ -19,7 +19,9 @@ std::vector<Workload> make_workloads(std::string_view filter) {
   add_sampled(workloads);
   add_chain(workloads);
   add_events(workloads);
+  add_stepper(workloads);
   add_sweep(workloads);
+  add_fit(workloads);
   std::erase_if(workloads, [&](const Workload& w) { return w.name.find(filter) == std::string::npos; });
   return workloads;
 }
@@ -27,6 +29,7 @@ std::vector<Workload> make_workloads(std::string_view filter) {
 void print_tables(std::string_view filter) {
   print_comparisons(make_workloads(filter), repeats);
   if (std::string_view("W5 sweep").find(filter) != std::string_view::npos) print_sweep_on_all_cores();
+  if (std::string_view("W7 fit").find(filter) != std::string_view::npos) print_fit();
   if (filter.empty()) print_planning();
 }
 

@@ -35,6 +35,8 @@ void add_robot(std::vector<Workload>& workloads);
 void add_sampled(std::vector<Workload>& workloads);
 void add_chain(std::vector<Workload>& workloads);
 void add_events(std::vector<Workload>& workloads);
+void add_stepper(std::vector<Workload>& workloads);
+void add_fit(std::vector<Workload>& workloads);
 void add_sweep(std::vector<Workload>& workloads);
 
 }  // namespace flyball::bench

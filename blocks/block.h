@@ -97,6 +97,8 @@ class Block {
 
   /// Makes the block sampled: keys `sample_time` and `offset`, exact.
   SampleTime sample_time(Rational fallback = Rational(1));
+  /// Makes the block sampled where the model gives a `sample_time`; else it answers at all times.
+  SampleTime sample_time_if_given();
 
   // Declared only where the structure asks for it; the handle is else `declared() == false`.
   Param param_if(bool wanted, std::string name, double fallback, std::string unit, Range range,
@@ -113,6 +115,14 @@ class Block {
   template <class O>
   ObjectOutput<O> object_output(std::string name, std::string doc) {
     return {object_slot<O>(SlotKind::object_output, std::move(name), std::move(doc))};
+  }
+  /// An output that always shows one object, which is structure: no equation.
+  template <class O>
+  ObjectOutput<O> object_output(std::string name, std::shared_ptr<const O> object, std::string doc) {
+    const ObjectOutput<O> port = object_output<O>(std::move(name), std::move(doc));
+    spec_.slots[port.slot].make_object = [object] { return std::shared_ptr<const void>(object); };
+    spec_.slots[port.slot].constant = true;
+    return port;
   }
   template <class O>
   Memory<O> memory(std::string name, std::string doc) {
@@ -147,11 +157,17 @@ class Block {
   /// The column that key `column` names of the file that key `file` names, over the file's first column,
   /// time. At least one row.
   std::shared_ptr<const TimeSeries> time_series(const std::string& file, const std::string& column);
+  /// NumberRows of lengths, m. Structure: what their expressions use is structural, too.
+  NumberRows lengths(const std::string& key, const NumberRows& fallback, std::string doc);
+  /// The columns `names` of the file that key `file` names, in `unit`, row by row; nothing without a file.
+  std::optional<NumberRows> columns(const std::string& file, const std::vector<std::string>& names,
+                                    const std::string& unit);
   /// Reports a structural mistake at `key`.
   void refuse(const std::string& key, std::string message);
 
  private:
   int slot(SlotSpec spec);
+  SampleTime sampled(Rational fallback);
   static SlotSpec param_spec(std::string name, double fallback, std::string unit, Range range,
                              std::string doc);
   static SlotSpec state_spec(SlotKind kind, std::string name, double initial, int initial_param,

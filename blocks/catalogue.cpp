@@ -69,7 +69,30 @@
   BLOCK(robot, PoseIntegrator)            \
   BLOCK(robot, Unicycle)                  \
   BLOCK(robot, MecanumDrive)              \
-  BLOCK(robot, MecanumInverse)
+  BLOCK(robot, MecanumInverse)            \
+  BLOCK(sensors, Encoder)                 \
+  BLOCK(sensors, EncoderOdometry)         \
+  BLOCK(sensors, Gyro)                    \
+  BLOCK(sensors, LandmarkSensor)          \
+  BLOCK(sensors, LandmarkCorrection)      \
+  BLOCK(navigation, LineNavigation)       \
+  BLOCK(navigation, ArcNavigation)        \
+  BLOCK(navigation, PathSequencer)        \
+  BLOCK(navigation, DeviationPID)         \
+  BLOCK(navigation, WheelSpeedAllocation) \
+  BLOCK(navigation, PurePursuit)          \
+  BLOCK(navigation, Stanley)              \
+  BLOCK(navigation, Waypoints)            \
+  BLOCK(navigation, RoadmapPlanner)       \
+  BLOCK(navigation, WaypointSelector)     \
+  BLOCK(navigation, PoseError)            \
+  BLOCK(navigation, KanayamaTracker)      \
+  BLOCK(navigation, VelocityLimiter)      \
+  BLOCK(navigation, MotorLimiter)         \
+  BLOCK(navigation, StepGenerator)        \
+  BLOCK(navigation, StepperWheelSpeed)    \
+  BLOCK(navigation, CrossTrackError)      \
+  BLOCK(navigation, LinearVelocityError)
 
 #include <stdexcept>
 #include <unordered_map>

@@ -16,6 +16,7 @@ class DimensionRun {
         size_(static_cast<int>(spec_.slots.size())),
         values_(size_),
         rates_(size_),
+        objects_(size_),
         memories_(size_) {
     for (int s = 0; s < size_; ++s) {
       index_.push_back(s);
@@ -24,9 +25,11 @@ class DimensionRun {
     }
     frame_.values = values_.data();
     for (int s = 0; s < size_; ++s) {
+      if (spec_.slots[s].make_object) objects_[s] = spec_.slots[s].make_object();
       if (spec_.slots[s].make_memory != nullptr) memories_[s] = spec_.slots[s].make_memory();
     }
     frame_.rates = rates_.data();
+    frame_.objects = frame_.next_objects = objects_.data();
     frame_.memories = memories_.data();
   }
 
@@ -83,6 +86,7 @@ class DimensionRun {
   int size_;
   DimensionRecorder recorder_;
   std::vector<Dimensional> own_, values_, rates_, next_;
+  std::vector<std::shared_ptr<const void>> objects_;
   std::vector<std::any> memories_;
   std::vector<int> index_;
   Frame<Dimensional> frame_;

@@ -33,7 +33,7 @@ void check_methods(const BlockType& type, const Specification& spec) {
     const auto at = static_cast<int>(&slot - spec.slots.data());
     return (slot.kind == SlotKind::output &&
             std::ranges::find(spec.passed, at, &PassThrough::output) == spec.passed.end()) ||
-           slot.kind == SlotKind::object_output;
+           (slot.kind == SlotKind::object_output && !slot.constant);
   });
   if (computed && has.outputs == nullptr) {
     throw std::logic_error(
@@ -85,14 +85,18 @@ class Deriver {
         values_(size_),
         rates_(size_),
         index_(size_),
+        objects_(size_),
         memories_(size_) {
     for (int s = 0; s < size_; ++s) {
       index_[s] = s;
+      if (spec_.slots[s].make_object) objects_[s] = spec_.slots[s].make_object();
       if (spec_.slots[s].make_memory != nullptr) memories_[s] = spec_.slots[s].make_memory();
+      if (spec_.slots[s].kind == SlotKind::object_input) object_inputs_.read(Dependency::on(s));
     }
     stand_for_themselves();
     frame_.values = values_.data();
     frame_.rates = rates_.data();
+    frame_.objects = frame_.next_objects = objects_.data();
     frame_.memories = memories_.data();
   }
 
@@ -129,8 +133,10 @@ class Deriver {
     sweep(object_.self.get(), frame_, index_.data(), size_, 1);
     for (int s = 0; s < size_; ++s) {
       if (!is_result(s, kind)) continue;
-      reads[s] = written[s].slots();
       affine[s] = written[s].affine();
+      // What is taken from an object leaves no trace: all of the block is taken to read it.
+      written[s].read(object_inputs_);
+      reads[s] = written[s].slots();
       if (!reads[s].empty() && reads[s].back() == size_) {
         throw std::logic_error(fmt::format("block {}: {} is never written", type_.name, spec_.slots[s].name));
       }
@@ -148,7 +154,9 @@ class Deriver {
   int size_;
   std::vector<Dependency> values_, rates_;
   std::vector<int> index_;
+  std::vector<std::shared_ptr<const void>> objects_;
   std::vector<std::any> memories_;
+  Dependency object_inputs_;
   Frame<Dependency> frame_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <type_traits>
 
@@ -71,7 +72,8 @@ inline bool nonzero(const Jet& x);
 /// up its own; scalars without a value take the first entry, which stands for all.
 template <class T>
 T look_up(const T& count, int size, auto&& entry) {
-  const auto index = [&](double x) { return std::clamp(static_cast<int>(std::lround(x)), 0, size - 1); };
+  // Not std::lround, which costs a call.
+  const auto index = [&](double x) { return x > 0.0 ? static_cast<int>(std::min(x, size - 1.0) + 0.5) : 0; };
   if constexpr (requires { value_of(count); }) {
     return entry(index(value_of(count)));
   } else if constexpr (requires { count.lane(0); }) {
@@ -80,6 +82,24 @@ T look_up(const T& count, int size, auto&& entry) {
     return result;
   } else {
     return entry(0);
+  }
+}
+
+/// A function of numbers that is constant between jumps which nobody locates: fit for sampled signals. Each
+/// lane has a value of its own; a derivative is 0.
+template <class T>
+T stepwise(auto&& function, const T& first, const std::same_as<T> auto&... others) {
+  if constexpr (requires { value_of(first); }) {
+    return T(function(value_of(first), value_of(others)...));
+  } else if constexpr (requires { first.lane(0); }) {
+    T result;
+    for (int k = 0; k < T::width * T::parts; ++k)
+      result.set_lane(k, function(first.lane(k), others.lane(k)...));
+    return result;
+  } else if constexpr (std::is_same_v<T, Dependency>) {
+    return curved((first + ... + others));
+  } else {
+    return T(1.0);
   }
 }
 

@@ -21,10 +21,4 @@ double saturated_asin_value(double x) { return std::asin(std::clamp(x, -1.0, 1.0
 
 double saturated_asin_slope(double x) { return std::fabs(x) < 1.0 ? 1.0 / std::sqrt(1.0 - x * x) : 0.0; }
 
-double whole_value(double x) { return std::trunc(x); }
-
-double sign_value(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0; }
-
-double no_slope(double) { return 0.0; }
-
 }  // namespace flyball

@@ -30,9 +30,6 @@ double sinc_value(double x);
 double sinc_slope(double x);
 double saturated_asin_value(double x);
 double saturated_asin_slope(double x);
-double whole_value(double x);
-double sign_value(double x);
-double no_slope(double x);
 
 /// sin(x)/x, and 1 at 0.
 template <class T>
@@ -46,27 +43,36 @@ T saturated_asin(const T& x) {
   return function_of(x, saturated_asin_value, saturated_asin_slope);
 }
 
-/// x without its fraction, towards 0.
-template <class T>
-T whole_part(const T& x) {
-  return function_of(x, whole_value, no_slope);
-}
-
-/// 1, 0 or -1.
-template <class T>
-T sign_of(const T& x) {
-  return function_of(x, sign_value, no_slope);
-}
-
 template <class T>
 struct Point {
   T x, y;
 };
 
+/// Both at once: in lanes, too, one call of the library.
+template <class T>
+Point<T> cos_and_sin(const T& x) {
+  if constexpr (requires { x.lane(0); }) {
+    Point<T> result;
+    for (int k = 0; k < T::width * T::parts; ++k) {
+      const double angle = x.lane(k);
+      result.x.set_lane(k, std::cos(angle));
+      result.y.set_lane(k, std::sin(angle));
+    }
+    return result;
+  } else {
+    return {cos(x), sin(x)};
+  }
+}
+
 /// The pose that stands in these ports or slots.
 template <class H>
 auto pose_in(auto& v, const Pose<H>& at) {
   return Pose<std::decay_t<decltype(v.time())>>{v[at.x], v[at.y], v[at.theta]};
+}
+
+template <class H>
+auto point_in(auto& v, H x, H y) {
+  return Point<std::decay_t<decltype(v.time())>>{v[x], v[y]};
 }
 
 /// How far a body has gone, in its own frame, and how far it has turned.
@@ -84,7 +90,8 @@ template <class T>
 Pose<T> moved(const Pose<T>& start, const Increment<T>& by, Integration rule = Integration::exact) {
   const T direction = rule == Integration::euler ? start.theta : start.theta + by.turn / 2.0;
   const T share = rule == Integration::exact ? sinc(by.turn / 2.0) : T(1.0);
-  const T c = share * cos(direction), s = share * sin(direction);
+  const Point<T> unit = cos_and_sin(direction);
+  const T c = share * unit.x, s = share * unit.y;
   return {start.x + (c * by.forward - s * by.left), start.y + (s * by.forward + c * by.left),
           start.theta + by.turn};
 }
@@ -93,8 +100,13 @@ Pose<T> moved(const Pose<T>& start, const Increment<T>& by, Integration rule = I
 template <class T>
 Point<T> seen_from(const Pose<T>& body, const Point<T>& point) {
   const T dx = point.x - body.x, dy = point.y - body.y;
-  const T c = cos(body.theta), s = sin(body.theta);
+  const auto [c, s] = cos_and_sin(body.theta);
   return {c * dx + s * dy, c * dy - s * dx};
+}
+
+template <class T>
+T distance_between(const Point<T>& a, const Point<T>& b) {
+  return hypot(b.x - a.x, b.y - a.y);
 }
 
 /// How far a point is to the right of the line from a to b. Not a number when these are one point.
@@ -110,7 +122,9 @@ T distance_from_segment(const Point<T>& p, const Point<T>& a, const Point<T>& b)
   const T dx = b.x - a.x, dy = b.y - a.y;
   const T along = dx * (p.x - a.x) + dy * (p.y - a.y);
   const T share = clamp(along / max(dx * dx + dy * dy, T(smallest)), T(0.0), T(1.0));
-  return hypot(p.x - a.x - share * dx, p.y - a.y - share * dy);
+  const T ox = p.x - a.x - share * dx, oy = p.y - a.y - share * dy;
+  // A distance of 0 has no derivative.
+  return sqrt(ox * ox + oy * oy + T(smallest));
 }
 
 }  // namespace flyball

@@ -20,6 +20,9 @@ struct Shape {
   std::vector<bool> zero;
 };
 
+/// A table of numbers; its rows may differ in length.
+using NumberRows = std::vector<std::vector<double>>;
+
 /// What a block's constructor may ask of the text that describes it. The model language implements it.
 /// Each getter gives nothing when the key is not given, or is wrong (it has then been reported).
 class Settings {
@@ -35,6 +38,12 @@ class Settings {
   virtual std::optional<std::vector<std::string>> list(std::string_view key) = 0;
   /// A list has one row; a list of lists has a row each.
   virtual std::optional<Shape> shape(std::string_view key) = 0;
+  /// NumberRows of lengths, in m: a list of lists; a list is one row, a length a row of one. Expressions make
+  /// their parameters structural.
+  virtual std::optional<NumberRows> lengths(std::string_view key) = 0;
+  /// Columns of a file; see Block::columns.
+  virtual std::optional<NumberRows> columns(std::string_view file, const std::vector<std::string>& names,
+                                            const std::string& unit) = 0;
   /// A column of a file; see Block::time_series.
   virtual std::shared_ptr<const TimeSeries> time_series(std::string_view file, std::string_view column) = 0;
   /// An expression; names that are not in `inputs` are parameters of the model.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <any>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -75,8 +76,9 @@ struct SlotSpec {
   Direction direction = Direction::either;
   RunEnd end = RunEnd::none;  // of a held value; then `doc` says why
   // Objects and memories are no numbers: their slots count in arrays of their own.
-  std::string type;                                        // name of the C++ type; ends of a wire must agree
-  std::shared_ptr<const void> (*make_object)() = nullptr;  // the value before the first hit
+  std::string type;  // name of the C++ type; ends of a wire must agree
+  std::function<std::shared_ptr<const void>()> make_object;  // the value before the first hit
+  bool constant = false;                                     // of an object output: that is its value
   std::any (*make_memory)() = nullptr;
 
   bool numeric() const { return kind < SlotKind::object_input; }

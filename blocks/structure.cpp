@@ -72,13 +72,27 @@ SampleTime Block::sample_time(Rational fallback) {
   spec_.structure.push_back(
       {"sample_time", fmt::format("\"{} s\"", fallback.value()), "time between two hits, exact", {}});
   spec_.structure.push_back({"offset", "\"0 s\"", "time of the first hit, exact", {}});
+  if (settings_ != nullptr && !given("sample_time"))
+    refuse("", "a sampled block needs a sample_time, such as sample_time = \"10 ms\"");
+  return sampled(fallback);
+}
+
+SampleTime Block::sample_time_if_given() {
+  spec_.structure.push_back({"sample_time",
+                             "\"\"",
+                             "time between two hits, exact; without it, the block answers at all times",
+                             {}});
+  spec_.structure.push_back({"offset", "\"0 s\"", "time of the first hit, exact", {}});
+  if (given("sample_time")) return sampled(Rational(1));
+  if (given("offset")) refuse("offset", "a block without a sample_time has no hits");
+  return {};
+}
+
+SampleTime Block::sampled(Rational fallback) {
   Rational period = fallback;
   if (settings_ != nullptr) {
     period = settings_->exact("sample_time").value_or(fallback);
     spec_.offset = settings_->exact("offset").value_or(Rational(0));
-    if (!settings_->given("sample_time")) {
-      refuse("", "a sampled block needs a sample_time, such as sample_time = \"10 ms\"");
-    }
   }
   if (period.numerator() <= 0) {
     refuse("sample_time", fmt::format("expected a time above 0 s, found {} s", period.value()));
@@ -162,6 +176,24 @@ Coefficients Block::matrix(const std::string& key, const std::vector<std::vector
   if (given(key)) shape = settings_->shape(key).value_or(shape);
   if (entries != Entries::not_zero) std::fill(shape.zero.begin(), shape.zero.end(), false);
   return declare_coefficients(key, shape, flat(fallback), false, "any", std::move(doc));
+}
+
+NumberRows Block::lengths(const std::string& key, const NumberRows& fallback, std::string doc) {
+  std::vector<std::string> rows;
+  for (const auto& row : fallback) rows.push_back(written(row));
+  spec_.structure.push_back({key, fmt::format("[{}]", fmt::join(rows, ", ")), std::move(doc), {}});
+  return settings_ == nullptr ? fallback : settings_->lengths(key).value_or(fallback);
+}
+
+std::optional<NumberRows> Block::columns(const std::string& file, const std::vector<std::string>& names,
+                                         const std::string& unit) {
+  spec_.structure.push_back({file,
+                             "\"\"",
+                             fmt::format("comma-separated values with the columns {}, in {} without another "
+                                         "unit; the path begins at the model file",
+                                         fmt::join(names, ", "), unit),
+                             {}});
+  return given(file) ? settings_->columns(file, names, unit) : std::nullopt;
 }
 
 std::shared_ptr<const TimeSeries> Block::time_series(const std::string& file, const std::string& column) {

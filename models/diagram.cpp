@@ -8,6 +8,7 @@
 #include "models/diagram_files.h"
 #include "models/diagram_guesses.h"
 #include "models/diagram_log.h"
+#include "models/diagram_questions.h"
 #include "models/diagram_simulation.h"
 #include "models/diagram_unfold.h"
 #include "models/diagram_wires.h"
@@ -61,6 +62,8 @@ Diagram read_hierarchy(const Hierarchy& hierarchy) {
   unfold(blocks, diagram);
   if (const TomlValue* simulation = root.section("simulation"))
     diagram.simulation = read_simulation(*simulation, state_names(diagram), Expressions(parameters, root));
+  diagram.metrics = read_questions(root.section("metrics"), root.report);
+  diagram.requirements = read_questions(root.section("requirements"), root.report);
   diagram.parameters = parameters.parameters();
   diagram.data_files = blocks.data_files();
   return diagram;

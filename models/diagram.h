@@ -93,6 +93,13 @@ struct UsedFile {
   std::string text;
 };
 
+/// A metric or a requirement of the model, in words that are read when it is run.
+struct Question {
+  std::string name;
+  std::string text;
+  std::vector<Position> at;  // of each byte of the text, and of its end
+};
+
 /// A checked model: every name resolved, every input connected, every structure constructed. Immutable.
 struct Diagram {
   std::string file;
@@ -104,6 +111,7 @@ struct Diagram {
   std::vector<Logged> logged;
   std::vector<Guess> guesses;
   std::vector<DataFile> data_files;
+  std::vector<Question> metrics, requirements;  // of the model itself, not of the files that it uses
   SimulationSettings simulation;
 
   int find_instance(std::string_view name) const;   ///< -1 when there is none

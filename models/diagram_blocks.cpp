@@ -182,18 +182,24 @@ void ModelBlocks::add_fallbacks(Subsystem& subsystem) {
     for (const int slot : given.port->slots) {
       if (!expressions.bind(*given.value, interface.outside->specification().slots[slot].unit)) break;
     }
-    TomlEntry& entry = fallbacks_.emplace_back();
-    entry.key = given.entry->key;
-    entry.at = given.entry->at;
-    entry.value.entries.push_back({"value", given.value->at, *given.value});
-    const int number = add(subsystem, entry, Role::fallback);
-    const BlockForm* form = make(*find_block_type("Constant"), entry, expressions);
-    nodes_[number].form = form;
-    if (form == nullptr) continue;
-    instances_[number].object = form->object;
-    Binder(entry, expressions).bind(*form, instances_[number]);
-    for (const int slot : given.port->slots) subsystem.fallback[slot] = number;
+    for (const int slot : given.port->slots) add_fallback(subsystem, given, slot);
   }
+}
+
+/// Each element of a vector has a number of its own: their units may differ.
+void ModelBlocks::add_fallback(Subsystem& subsystem, const Interface::Default& given, int slot) {
+  const Expressions expressions(parameters_, subsystem);
+  TomlEntry& entry = fallbacks_.emplace_back();
+  entry.key = subsystem.type.interface.outside->specification().slots[slot].name;
+  entry.at = given.entry->at;
+  entry.value.entries.push_back({"value", given.value->at, *given.value});
+  const int number = add(subsystem, entry, Role::fallback);
+  const BlockForm* form = make(*find_block_type("Constant"), entry, expressions);
+  nodes_[number].form = form;
+  if (form == nullptr) return;
+  instances_[number].object = form->object;
+  Binder(entry, expressions).bind(*form, instances_[number]);
+  subsystem.fallback[slot] = number;
 }
 
 void ModelBlocks::construct(int number, const TomlEntry& entry) {

@@ -60,6 +60,7 @@ class ModelBlocks {
   void add_subsystem(Subsystem& owner, const Member& member);
   int add_ports(const Subsystem& owner, Subsystem& subsystem, Role role);
   void add_fallbacks(Subsystem& subsystem);
+  void add_fallback(Subsystem& subsystem, const Interface::Default& given, int slot);
   void construct(int instance, const TomlEntry& entry);
   const BlockType* type_of(const Subsystem& owner, const TomlEntry& entry) const;
   const BlockForm* make(const BlockType& type, const TomlEntry& entry, const Expressions& expressions);

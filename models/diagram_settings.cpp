@@ -135,8 +135,54 @@ std::shared_ptr<const Formula> TableSettings::formula(std::string_view key,
   return parsed ? std::make_shared<const Formula>(*std::move(parsed)) : nullptr;
 }
 
+std::optional<std::vector<double>> TableSettings::length_row(const TomlValue& row) const {
+  const bool one = is_entry(row);
+  if (!one && !report_.expect(row, Kind::list, "lengths")) return std::nullopt;
+  std::vector<double> result;
+  for (const TomlValue& item : one ? std::vector<TomlValue>{row} : row.items) {
+    if (!is_entry(item)) {
+      report_.error(item, message::wrong_type("a length", item));
+      return std::nullopt;
+    }
+    const auto length = expressions_.fixed(item, "m");
+    if (!length) return std::nullopt;
+    result.push_back(*length);
+  }
+  return result;
+}
+
+std::optional<NumberRows> TableSettings::lengths(std::string_view key) {
+  const TomlValue* value = find(key, as_lengths);
+  if (value == nullptr) return std::nullopt;
+  const bool table = value->is(Kind::list) && (value->items.empty() || value->items[0].is(Kind::list));
+  NumberRows rows;
+  for (const TomlValue& row : table ? value->items : std::vector<TomlValue>{*value}) {
+    auto read = length_row(row);
+    if (!read) return std::nullopt;
+    rows.push_back(*std::move(read));
+  }
+  return rows;
+}
+
 std::string TableSettings::path_of(const TomlValue& file) const {
   return (std::filesystem::path(report_.file()).parent_path() / file.text).string();
+}
+
+std::optional<NumberRows> TableSettings::columns(std::string_view file, const std::vector<std::string>& names,
+                                                 const std::string& unit) {
+  const TomlValue* value = find(file, as_file);
+  if (value == nullptr || !report_.expect(*value, Kind::string, "the name of a file in quotes"))
+    return std::nullopt;
+  const DataFiles::Content& content = files_.open(path_of(*value));
+  std::vector<Diagnostic> problems = content.problems;
+  std::optional<NumberRows> rows;
+  if (content.table) {
+    Diagnostics diagnostics(path_of(*value));
+    rows = read_columns(*content.table, names, unit, diagnostics);
+    problems = diagnostics.sorted();
+  }
+  for (const Diagnostic& problem : problems) report_.error(*value, message::in_data_file(to_string(problem)));
+  return rows;
 }
 
 std::shared_ptr<const TimeSeries> TableSettings::time_series(std::string_view file, std::string_view column) {
@@ -186,6 +232,12 @@ void TableSettings::append_shape(std::string& result, std::string_view key) {
   for (const bool zero : form->zero) result += zero ? '0' : '1';
 }
 
+void TableSettings::append_lengths(std::string& result, std::string_view key) {
+  const auto rows = lengths(key);
+  if (!rows) return;
+  for (const auto& row : *rows) fmt::format_to(std::back_inserter(result), "[{}]", fmt::join(row, ","));
+}
+
 /// What a formula means also depends on the names that it sees: those of one definition.
 void TableSettings::append_formula(std::string& result, const TomlValue& value) {
   append(result, value);
@@ -206,6 +258,7 @@ std::string TableSettings::structure(const Uses& uses) {
     if ((use & as_whole) != 0) append_exact(result, *value, "1");
     if ((use & as_file) != 0 && value->is(Kind::string)) result += path_of(*value);
     if ((use & as_shape) != 0) append_shape(result, key);
+    if ((use & as_lengths) != 0) append_lengths(result, key);
     if ((use & as_formula) != 0) append_formula(result, *value);
     result += ';';
   }

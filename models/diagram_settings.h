@@ -19,7 +19,8 @@ class TableSettings : public Settings {
     as_whole = 4,
     as_shape = 8,
     as_formula = 16,
-    as_file = 32
+    as_file = 32,
+    as_lengths = 64
   };
   using Uses = std::map<std::string, unsigned, std::less<>>;
 
@@ -40,6 +41,9 @@ class TableSettings : public Settings {
   std::optional<Shape> shape(std::string_view key) override;
   std::shared_ptr<const Formula> formula(std::string_view key,
                                          const std::vector<std::string>& inputs) override;
+  std::optional<NumberRows> lengths(std::string_view key) override;
+  std::optional<NumberRows> columns(std::string_view file, const std::vector<std::string>& names,
+                                    const std::string& unit) override;
   std::shared_ptr<const TimeSeries> time_series(std::string_view file, std::string_view column) override;
   void refuse(std::string_view key, std::string message) override;
 
@@ -51,8 +55,10 @@ class TableSettings : public Settings {
  private:
   const TomlValue* find(std::string_view key, Use use) const;
   std::string path_of(const TomlValue& file) const;
+  std::optional<std::vector<double>> length_row(const TomlValue& row) const;
   void append_exact(std::string& result, const TomlValue& value, const std::string& unit);
   void append_shape(std::string& result, std::string_view key);
+  void append_lengths(std::string& result, std::string_view key);
   void append_formula(std::string& result, const TomlValue& value);
 
   const TomlEntry& block_;

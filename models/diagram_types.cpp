@@ -91,16 +91,17 @@ void SubsystemTypes::check(SubsystemType& type) {
 void SubsystemTypes::check_keys(const SubsystemType& type, const Report& report) const {
   const TomlValue& body = *type.body;
   if (type.is_file()) {
-    report.check_keys(
-        body, "a model file",
-        {"flyball", "model", "parameters", "ports", "subsystems", "blocks", "diagram", "simulation"});
+    report.check_keys(body, "a model file",
+                      {"flyball", "model", "parameters", "ports", "subsystems", "blocks", "diagram",
+                       "simulation", "metrics", "requirements"});
     check_version(body, report);
   } else {
     report.check_keys(body, "subsystem " + type.name,
                       {"doc", "parameters", "ports", "subsystems", "blocks", "diagram"});
     report.text(body, "doc");
   }
-  for (const char* name : {"model", "parameters", "ports", "subsystems", "blocks", "diagram", "simulation"}) {
+  for (const char* name : {"model", "parameters", "ports", "subsystems", "blocks", "diagram", "simulation",
+                           "metrics", "requirements"}) {
     if (const TomlValue* section = body.find(name)) report.expect(*section, Kind::table, "a section");
   }
   if (type.is_file() && body.find("blocks") == nullptr)

@@ -35,8 +35,9 @@ Endpoint Order::endpoint(int node) const {
 }
 
 bool Order::evaluated(Endpoint e) const {
-  const SlotKind kind = spec(e.instance).slots[e.slot].kind;
-  return kind == SlotKind::output || kind == SlotKind::object_output || kind == SlotKind::relation;
+  const SlotSpec& slot = spec(e.instance).slots[e.slot];
+  return slot.kind == SlotKind::output || slot.kind == SlotKind::relation ||
+         (slot.kind == SlotKind::object_output && !slot.constant);
 }
 
 bool Order::computed(Endpoint e) const { return evaluated(e) && !source_[node(e)].connected(); }

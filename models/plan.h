@@ -2,6 +2,7 @@
 
 #include <any>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -156,7 +157,7 @@ struct Plan {
   std::vector<Start> initial;           // states and held values
   std::vector<int> streams;             // slots of streams of random numbers
   std::vector<int> run_ends;            // slots of held values that end the run when they are not 0
-  std::vector<std::shared_ptr<const void> (*)()> first_objects;
+  std::vector<std::function<std::shared_ptr<const void>()>> first_objects;
   std::vector<std::any (*)()> first_memories;
 
   // Programs. A bit is read in all, and settled in `sweep` only.

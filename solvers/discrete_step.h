@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "solvers/reach.h"
 #include "solvers/stepper.h"
 
@@ -27,6 +29,8 @@ class DiscreteStep final : public Stepper<double> {
   const double* state() const override { return nullptr; }
   void interpolate(double, double*) override {}
   bool ends_with_rates() const override { return false; }
+  void hold() { ++statistics_.restarts; }
+  double largest() const { return std::numeric_limits<double>::max(); }
 
  private:
   double max_step_;

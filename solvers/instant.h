@@ -56,7 +56,14 @@ class Instant {
   /// The earliest alarm; `never` when none is set.
   double next_alarm() const;
 
+  bool is_heard() const { return listener_ != nullptr; }
+
   const EventCounts& counts() const { return counts_; }
+  /// Counts the sweep and the hits of an instant that RegularHits carries out.
+  void count_hits(const Due& due) {
+    ++counts_.sweeps;
+    for (std::size_t r = 0; r < counts_.hits.size(); ++r) counts_.hits[r] += due.rates[r];
+  }
 
  private:
   void sweep(const Due* hits);

@@ -1,5 +1,7 @@
 #include "solvers/lane_group.h"
 
+#include <algorithm>
+
 namespace flyball {
 namespace {
 
@@ -44,6 +46,9 @@ void LaneGroup<isa>::load(int lane, const Workspace<double>& from, bool counts) 
     up[k] = with_lane(up[k], lane, from.sides[k] > 0);
     down[k] = with_lane(down[k], lane, from.sides[k] < 0);
   }
+  std::copy_n(states(), next.size(), next.begin());
+  objects = from.objects;
+  next_objects.resize(objects.size());
   active_ = with_lane(active_, lane, counts);
 }
 
@@ -60,6 +65,8 @@ Frame<Lanes<isa>> LaneGroup<isa>::frame(T* to_rates) {
   f.rates = to_rates;
   f.next = next.data();
   f.bits = bits.data();
+  f.objects = objects.data();
+  f.next_objects = next_objects.data();
   f.first_state = plan.layout.first_state;
   f.first_relation = plan.layout.first_relation;
   return f;

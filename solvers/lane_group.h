@@ -51,9 +51,10 @@ class LaneGroup {
   void drop_bad_outputs();
 
   const Plan& plan;
-  std::vector<T> values, next;
+  std::vector<T> values, next;     // between two instants `next` holds what is staged, as it is
   std::vector<LaneMask> bits;      // of relations
   std::vector<LaneMask> up, down;  // the sides of crossings; neither as long as it is not known
+  std::vector<std::shared_ptr<const void>> objects, next_objects;  // of structure, so common to all lanes
   Calls sweep, rates, zeros, zeros_rest, logs, crossings, schedules;
 
  private:

@@ -32,12 +32,22 @@ LaneInstant<isa>::LaneInstant(LaneGroup<isa>& group, LaneEvents<isa>& events)
 template <Isa isa>
 void LaneInstant<isa>::run(const LaneDue& due) {
   if (due.located) events_.force();
-  sweep(&due);
-  collect_due(due);
-  run_handlers();
-  bool again = commit();
-  for (int round = 0; again || group_.plan.layout.crossings() > 0; ++round) {
-    if (again) sweep(nullptr);
+  const Hits& hits = find_hits(due.hits ? &due : nullptr);
+  const bool moves = hits.moves_crossings;
+  sweep(hits);
+  bool again = false;
+  if (due.alarms.empty() && !due.located && !hits.moves_states) {
+    sample(hits);
+  } else {
+    collect_due(due);
+    run_handlers();
+    again = commit();
+  }
+  // At the start all crossings are looked at.
+  bool looks = group_.plan.layout.crossings() > 0 &&
+               (again || due.located || !due.alarms.empty() || moves || group_.time() == 0.0);
+  for (int round = 0; again || looks; ++round) {
+    if (again) sweep(find_hits(nullptr));
     handlers_.clear();
     collect_crossings(events_.fired_crossings());
     if (round == most_rounds) {
@@ -54,17 +64,97 @@ void LaneInstant<isa>::run(const LaneDue& due) {
 }
 
 template <Isa isa>
-void LaneInstant<isa>::sweep(const LaneDue* hits) {
-  const Program& program = group_.plan.sweep;
+typename LaneInstant<isa>::Hits LaneInstant<isa>::hits_of(const std::vector<unsigned char>& rates) const {
+  const Plan& plan = group_.plan;
+  Hits hits;
+  hits.rates = rates;
+  for (std::size_t k = 0; k < plan.sweep.ops.size(); ++k) {
+    const Op& op = plan.sweep.ops[k];
+    if (op.rate >= 0 && rates[op.rate] == 0) continue;
+    hits.sweeps.push_back({group_.sweep[k], op.settle_first, op.settle_count});
+  }
+  for (std::size_t r = 0; r < rates.size(); ++r) {
+    if (rates[r] == 0) continue;
+    for (const int i : plan.hit_rates[r].handlers) {
+      hits.samples.push_back(
+          {group_.kernels(i).on_sample, plan.instance(i).object->self.get(), plan.index_of(i)});
+      for (int k = staged_first_[i]; k < staged_first_[i + 1]; ++k) add_staged(hits, staged_[k]);
+    }
+  }
+  hits.moves_crossings = plan.layout.states() > 0 || moves_crossings(hits);
+  return hits;
+}
+
+/// Time counts as computed anew.
+template <Isa isa>
+bool LaneInstant<isa>::moves_crossings(const Hits& hits) const {
+  const Plan& plan = group_.plan;
+  std::vector<bool> moved(plan.layout.size, false);
+  moved[0] = true;
+  for (const auto& [call, settle_first, settle_count] : hits.sweeps) {
+    for (int k = 0; k < call.count * call.stride; ++k) {
+      const int slot = call.index[k];
+      if (slot >= plan.layout.first_output && slot < plan.layout.first_crossing) moved[slot] = true;
+    }
+  }
+  return std::ranges::any_of(plan.crossings.ops, [&](const Op& op) {
+    const auto& slots = op.object->specification->slots;
+    for (int k = 0; k < op.count * op.stride; ++k) {
+      const int local = k % op.stride;
+      const bool reads = std::ranges::any_of(op.object->reads, [&](const std::vector<int>& read) {
+        return std::ranges::binary_search(read, local);
+      });
+      if (reads && slots[local].numeric() && moved[plan.index[op.first + k]]) return true;
+    }
+    return false;
+  });
+}
+
+template <Isa isa>
+void LaneInstant<isa>::add_staged(Hits& hits, int slot) const {
+  if (slot < group_.plan.layout.first_held) hits.moves_states = true;
+  if (!hits.staged.empty() && hits.staged.back().first + hits.staged.back().second == slot) {
+    ++hits.staged.back().second;
+  } else {
+    hits.staged.emplace_back(slot, 1);
+  }
+}
+
+template <Isa isa>
+const typename LaneInstant<isa>::Hits& LaneInstant<isa>::find_hits(const LaneDue* due) {
+  const auto same = [&](const Hits& hits) {
+    return due != nullptr ? hits.rates == due->rates
+                          : std::ranges::all_of(hits.rates, [](unsigned char hit) { return hit == 0; });
+  };
+  const auto known = std::ranges::find_if(known_hits_, same);
+  if (known != known_hits_.end()) return *known;
+  // Rates that hit together are few; a diagram with very many of them begins anew.
+  constexpr std::size_t most = 64;
+  if (known_hits_.size() == most) known_hits_.clear();
+  const std::vector<unsigned char> none(group_.plan.hit_rates.size(), 0);
+  known_hits_.push_back(hits_of(due != nullptr ? due->rates : none));
+  return known_hits_.back();
+}
+
+template <Isa isa>
+void LaneInstant<isa>::sweep(const Hits& hits) {
   const Frame<T> f = group_.frame();
-  for (std::size_t k = 0; k < program.ops.size(); ++k) {
-    const Op& op = program.ops[k];
-    if (op.rate >= 0 && (hits == nullptr || hits->rates[op.rate] == 0)) continue;
-    LaneGroup<isa>::run(group_.sweep[k], f);
-    for (int s = op.settle_first; s < op.settle_first + op.settle_count; ++s)
-      events_.settle(program.settle[s]);
+  for (const auto& sweep : hits.sweeps) {
+    LaneGroup<isa>::run(sweep.call, f);
+    for (int s = sweep.settle_first; s < sweep.settle_first + sweep.settle_count; ++s)
+      events_.settle(group_.plan.sweep.settle[s]);
   }
   group_.drop_bad_outputs();
+}
+
+/// Where nothing else is due: samples in all lanes, which no unsampled block sees. What is staged of held
+/// values is what they are, until a handler writes it. The next sweep looks whether they are finite.
+template <Isa isa>
+void LaneInstant<isa>::sample(const Hits& hits) {
+  const Frame<T> f = group_.frame();
+  for (const auto& sample : hits.samples) sample.kernel(sample.self, f, sample.index);
+  for (const auto& [slot, count] : hits.staged)
+    std::copy_n(&group_.next[slot - group_.plan.layout.first_state], count, &group_.values[slot]);
 }
 
 template <Isa isa>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "solvers/lane_events.h"
@@ -42,7 +43,32 @@ class LaneInstant {
     LaneMask lanes;
   };
 
-  void sweep(const LaneDue* hits);
+  /// What rates that hit together call: found once for each set of them.
+  struct Hits {
+    struct Sweep {
+      typename LaneGroup<isa>::Call call;
+      int settle_first, settle_count;  // Program::settle
+    };
+    struct Sample {
+      typename Kernels<T>::Handler kernel;
+      const void* self;
+      const int* index;
+    };
+    std::vector<unsigned char> rates;
+    std::vector<Sweep> sweeps;
+    std::vector<Sample> samples;
+    std::vector<std::pair<int, int>> staged;  // slots that these write: first, and how many
+    bool moves_states = false;
+    bool moves_crossings = false;  // something that a crossing reads is computed anew
+  };
+
+  void add_staged(Hits& hits, int slot) const;
+  bool moves_crossings(const Hits& hits) const;
+  Hits hits_of(const std::vector<unsigned char>& rates) const;
+  /// Valid until the next call; null: no rate hits.
+  const Hits& find_hits(const LaneDue* due);
+  void sweep(const Hits& hits);
+  void sample(const Hits& hits);
   void collect_due(const LaneDue& due);
   void collect_crossings(const std::vector<typename LaneEvents<isa>::Change>& changes);
   void run_handlers();
@@ -52,6 +78,7 @@ class LaneInstant {
 
   LaneGroup<isa>& group_;
   LaneEvents<isa>& events_;
+  std::vector<Hits> known_hits_;
   std::vector<int> staged_first_, staged_;  // slots of states and held values of each instance
   std::vector<Handler> handlers_;
   std::vector<unsigned char> is_staged_;  // of each instance, in this round

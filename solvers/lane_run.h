@@ -22,6 +22,7 @@ class LaneRun {
   virtual bool run(const std::function<bool()>& cancelled) = 0;
   /// Whether the run of a lane went through. If not, it must run on its own, which tells why.
   virtual bool finished(int lane) const = 0;
+  /// At the end of the run of a lane: the stop time, or where a block ended it.
   virtual double value(int slot, int lane) const = 0;
   virtual Log take_log(int lane) = 0;
   /// The row that a log would end with: time, then the columns.

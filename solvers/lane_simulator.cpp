@@ -43,20 +43,17 @@ Log end_log(const Simulator& simulator) {
 }  // namespace
 
 std::string refuses_lanes(const Plan& plan, const SimulationSettings& settings) {
-  if (settings.method != "dp5" && settings.method != "auto")
-    return fmt::format("lanes run with the method dp5, not with {}", settings.method);
-  if (plan.layout.states() == 0) return "there are no states to integrate";
+  const std::string own = plan.layout.states() == 0 ? "discrete" : "dp5";
+  if (settings.method != own && settings.method != "auto")
+    return fmt::format("lanes run this diagram with the method {}, not with {}", own, settings.method);
   if (!plan.chains.empty()) return "an algebraic loop is solved for one run at a time";
-  for (const int slot : plan.run_ends) {
-    return fmt::format("{} may end a run before the others", plan.instance(plan.owner[slot]).name);
-  }
   for (const Instance& instance : plan.diagram->instances) {
     const BlockType& type = *instance.object->type;
     if (!has_lanes(type))
       return fmt::format("{} is a {}, which exists on numbers alone", instance.name, type.name);
   }
   const std::string method = chosen_method(plan, settings);
-  if (method != "dp5" && method != "auto") return fmt::format("auto takes the method {}", method);
+  if (method != own && method != "auto") return fmt::format("auto takes the method {}", method);
   return "";
 }
 
@@ -118,7 +115,11 @@ std::optional<LaneOutcome> LaneSimulator::outcome_of(int lane) const {
   }
   outcome.values.resize(plan_->layout.size);
   for (int s = 0; s < plan_->layout.size; ++s) outcome.values[s] = group_->value(s, lane);
-  outcome.end = settings_.stop;
+  outcome.end = outcome.values[0];
+  for (const int slot : plan_->run_ends) {
+    if (outcome.values[slot] != 0.0 && outcome.end_reason.empty())
+      outcome.end_reason = end_reason(*plan_, slot);
+  }
   return outcome;
 }
 

@@ -45,6 +45,7 @@ double LaneStepper<isa>::step(double limit) {
   std::copy_n(step_.row(Step::after), step_.n, step_.row(Step::before));
   std::copy_n(step_.row(last_rate), step_.n, step_.row(0));
   const double remaining = limit - begin_;
+  if (step_.n == 0) return leap(remaining, limit);
   if (!(memory_.size > 0.0)) memory_.size = first_step(remaining);
   bool rejected = false;
   for (;;) {
@@ -67,6 +68,16 @@ double LaneStepper<isa>::step(double limit) {
     memory_.size = next.size;
     if (group_.active() == 0) return end_;
   }
+}
+
+/// As DiscreteStep.
+template <Isa isa>
+double LaneStepper<isa>::leap(double remaining, double limit) {
+  const Reach next = reach(options_.max_step, remaining, options_.max_step);
+  end_ = next.lands ? limit : begin_ + next.size;
+  group_.place(end_);
+  ++statistics_.steps;
+  return end_;
 }
 
 template <Isa isa>

@@ -19,8 +19,8 @@ class LaneStepper {
 
   /// Begins at the time and states of the group. The step size stays; a `fresh` run has none.
   void restart(bool fresh);
-  /// One accepted step, not beyond `limit`. Leaves the group at its end, its rates evaluated. Returns its
-  /// time, or, when no run is left, anything.
+  /// One accepted step, not beyond `limit`; without states, of the longest size that is allowed. Leaves the
+  /// group at its end, its rates evaluated. Returns its time, or, when no run is left, anything.
   double step(double limit);
   /// Sets the group to a time inside the last step.
   void interpolate(double t);
@@ -38,6 +38,7 @@ class LaneStepper {
   double first_step_of(int lane, double h0) const;
   double guess_of(int lane) const;
   double norm_of(int lane, auto&& component) const;
+  double leap(double remaining, double limit);
   void attempt(double end);
   double worst_error();
   void remember(double error, const Reach& taken, bool rejected);

@@ -14,6 +14,7 @@ PlanSystem::PlanSystem(const Plan& plan, Workspace<double>& workspace)
     : plan_(plan),
       workspace_(workspace),
       affine_(plan, plan.rates, {}),
+      held_rates_(plan),
       jets_(plan),
       jet_rates_(plan.layout.states()),
       zero_rates_(plan.layout.size - plan.layout.first_relation) {}
@@ -37,13 +38,6 @@ void PlanSystem::rates_after_sweep(double* dx) {
   run(plan_.rates_only, plan_, frame(plan_, workspace_, dx));
   const double* x = workspace_.values.data() + plan_.layout.first_state;
   if (must_learn()) affine_.adopt(workspace_.values[0], x, dx, workspace_, workspace_.rates_map);
-}
-
-const std::vector<double>* PlanSystem::linear_part() const {
-  const Workspace<double>::Affine& map = workspace_.rates_map;
-  const bool constant = affine_.applies() && !map.stale &&
-                        std::ranges::all_of(map.slope, [](double slope) { return slope == 0.0; });
-  return constant ? &map.matrix : nullptr;
 }
 
 void PlanSystem::jacobian(double t, const double* x, double* values) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "solvers/affine.h"
+#include "solvers/held_rates.h"
 #include "solvers/workspace.h"
 
 namespace flyball {
@@ -19,8 +20,11 @@ class PlanSystem final : public System<double> {
   const Sparsity& pattern() const override { return plan_.pattern; }
   void jacobian(double t, const double* x, double* values) override;
 
-  const std::vector<double>* linear_part() const override;
-  /// Whether linear_part() will be there after each instant.
+  const LinearRates* linear_rates() override {
+    return affine_.applies() ? held_rates_.of(workspace_) : nullptr;
+  }
+  void held_inputs(double* w) const override { held_rates_.inputs(workspace_, w); }
+  /// Whether linear_rates() will be there after each instant.
   bool is_linear() const { return affine_.applies() && affine_.is_autonomous(); }
 
   /// Whether the next call of `rates` will take more than a product.
@@ -44,6 +48,7 @@ class PlanSystem final : public System<double> {
   const Plan& plan_;
   Workspace<double>& workspace_;
   AffineProgram affine_;
+  HeldRates held_rates_;
   Workspace<Jet> jets_;
   std::vector<Jet> jet_rates_;
   std::vector<double> zero_rates_;

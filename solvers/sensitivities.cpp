@@ -111,9 +111,9 @@ void Sensitivities::Run::run(std::span<const double> parameters) {
     throw std::invalid_argument(
         fmt::format("expected {} parameters, found {}", slots_.size(), parameters.size()));
   Simulator simulator(plan_, settings_, {false});
-  for (const auto& [name, value] : request_.set) simulator.set_parameter(name, value);
-  for (std::size_t p = 0; p < parameters.size(); ++p)
-    simulator.set_parameter(request_.parameters[p], parameters[p]);
+  ParameterSet set = request_.set;
+  for (std::size_t p = 0; p < parameters.size(); ++p) set.emplace_back(slots_[p], parameters[p]);
+  simulator.set_parameters(set);
   simulator.tell(*this);
   numbers_ = &simulator.workspace();
   table_.values.assign(table_.times.size() * table_.slots.size(), 0.0);
@@ -125,9 +125,10 @@ void Sensitivities::Run::run(std::span<const double> parameters) {
     more = simulator.advance();
   }
   if (simulator.time() < settings_.stop) {
-    throw SimulationError(SimulationError::Kind::asserted, simulator.time(),
-                          fmt::format("the run ended at t = {} s, before the last time that is asked for ({})",
-                                      simulator.time(), simulator.end_reason()));
+    throw SimulationError(
+        SimulationError::Kind::asserted, simulator.time(),
+        fmt::format("the run ended at t = {} s, before the last time that is asked for ({})",
+                    simulator.time(), simulator.end_reason()));
   }
   for (auto& pass : passes_) pass->finish(settings_.stop);
 }

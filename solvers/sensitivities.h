@@ -4,10 +4,10 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "models/plan.h"
+#include "solvers/parameters.h"
 
 namespace flyball {
 
@@ -16,7 +16,7 @@ struct SensitivityRequest {
   std::vector<std::string> parameters;  // "K" or "block.parameter"; initial values are parameters
   std::vector<std::string> signals;     // names of logged columns
   std::vector<double> times;            // [s], ascending, from 0 to the stop time
-  std::vector<std::pair<std::string, double>> set = {};  // parameters with other values than the model's [SI]
+  ParameterSet set = {};                // parameters with other values than the model's
 };
 
 struct SensitivityOptions {

@@ -11,6 +11,7 @@
 
 #include "solvers/chattering.h"
 #include "solvers/parameters.h"
+#include "solvers/reach.h"
 
 namespace flyball {
 namespace {
@@ -60,11 +61,14 @@ Simulator::Simulator(std::shared_ptr<const Plan> plan, const SimulationSettings&
       method_(first_method(*plan_, system_, settings)),
       zeros_(*plan_, workspace_),
       instant_(*plan_, workspace_, system_, zeros_),
+      regular_hits_(*plan_, workspace_, zeros_),
       stepper_(make_stepper(method_, system_, options_)),
       log_(*plan_),
       affine_log_(*plan_, plan_->logs, logged_slots(*plan_)),
       polynomial_(log_.width()),
       time_(workspace_.values[0]) {
+  exact_ = dynamic_cast<ExactStep*>(stepper_.get());
+  discrete_ = dynamic_cast<DiscreteStep*>(stepper_.get());
   due_.rates.assign(plan_->hit_rates.size(), 0);
   due_.alarms.reserve(plan_->alarm_records.size());
   recent_.reserve(2 * most_close_events);
@@ -186,13 +190,7 @@ void Simulator::find_due(double t, double tick, bool located) {
   due_.located = located;
   due_.hits = false;
   if (tick <= t) {
-    const std::int64_t now = *std::ranges::min_element(workspace_.ticks);
-    for (std::size_t r = 0; r < due_.rates.size(); ++r) {
-      due_.rates[r] = workspace_.ticks[r] == now ? 1 : 0;
-      if (due_.rates[r] != 0) workspace_.ticks[r] += plan_->hit_rates[r].period_ticks;
-    }
-    due_.hits = true;
-    ++statistics_.hits;
+    take_hits();
   } else {
     std::ranges::fill(due_.rates, 0);
   }
@@ -202,6 +200,17 @@ void Simulator::find_due(double t, double tick, bool located) {
     due_.alarms.push_back(static_cast<int>(k));
     ++statistics_.alarms;
   }
+}
+
+/// What hits at the next tick.
+void Simulator::take_hits() {
+  const std::int64_t now = *std::ranges::min_element(workspace_.ticks);
+  for (std::size_t r = 0; r < due_.rates.size(); ++r) {
+    due_.rates[r] = workspace_.ticks[r] == now ? 1 : 0;
+    if (due_.rates[r] != 0) workspace_.ticks[r] += plan_->hit_rates[r].period_ticks;
+  }
+  due_.hits = true;
+  ++statistics_.hits;
 }
 
 void Simulator::check_alarms(double t) const {
@@ -221,10 +230,12 @@ void Simulator::find_end() {
   }
 }
 
+std::string end_reason(const Plan& plan, int slot) {
+  return fmt::format("{}: {}", plan.instance(plan.owner[slot]).name, slot_spec(plan, slot).doc);
+}
+
 std::string Simulator::end_reason() const {
-  if (ended_by_ < 0) return {};
-  return fmt::format("{}: {}", plan_->instance(plan_->owner[ended_by_]).name,
-                     slot_spec(*plan_, ended_by_).doc);
+  return ended_by_ < 0 ? std::string() : flyball::end_reason(*plan_, ended_by_);
 }
 
 void Simulator::watch_progress(double t) {
@@ -284,6 +295,10 @@ void Simulator::log_asked(double end, bool with_end) {
 /// for.
 void Simulator::log_instant(bool was_asked) {
   if (was_asked) ++workspace_.log_position;
+  if (was_asked && row_before_.empty()) {
+    log_.append(workspace_.values);
+    return;
+  }
   log_.read(workspace_.values, row_after_);
   const bool jump = !row_before_.empty() && row_before_ != row_after_;
   if (jump && log_options_.event_rows == EventRows::both) log_.append_row(row_before_);
@@ -291,11 +306,63 @@ void Simulator::log_instant(bool was_asked) {
 }
 
 void Simulator::run(const std::function<bool(double)>& progress) {
-  constexpr int steps_between = 256;
-  for (int k = 1; advance(); ++k) {
-    if (progress && k % steps_between == 0 && !progress(time_ / settings_.stop)) return;
+  constexpr long steps_between = 256;
+  long steps = 0, told = 0;
+  for (bool more = true; more;) {
+    steps += run_regular_hits();
+    more = advance();
+    if (!progress || !more || ++steps - told < steps_between) continue;
+    told = steps;
+    if (!progress(time_ / settings_.stop)) return;
   }
   if (progress) progress(1.0);
+}
+
+/// Takes hits as long as nothing else happens, and leaves what comes then to `advance`, which brings all of
+/// the workspace up to date. Returns how many it took.
+long Simulator::run_regular_hits() {
+  if (stage_ != Stage::running || profiler_ != nullptr || instant_.is_heard() || !regular_hits_.applies())
+    return 0;
+  if (exact_ != nullptr) return run_regular_hits(*exact_);
+  return discrete_ != nullptr ? run_regular_hits(*discrete_) : 0;
+}
+
+template <class Method>
+long Simulator::run_regular_hits(Method& method) {
+  constexpr long most = 1000;  // so that progress is told
+  const double end = std::min(instant_.next_alarm(), settings_.stop);
+  const bool logs = log_options_.enabled && !log_.columns().empty();
+  const bool jumps = logs && regular_hits_.logs_jump() && log_options_.event_rows != EventRows::none;
+  double* x = workspace_.values.data() + plan_->layout.first_state;
+  due_.alarms.clear();
+  due_.located = false;
+  row_before_.clear();
+  double asked = logs ? asked_.time(workspace_.log_position) : never;
+  long done = 0;
+  for (double t = next_tick(); done < most; t = next_tick(), ++done) {
+    const double blur = same_instant(t);
+    const bool is_next = t + blur < end && asked >= t - blur;
+    if (!is_next || !reach(options_.max_step, t - time_, options_.max_step).lands) break;
+    if (done == 0) regular_hits_.begin();
+    step_end_ = method.step(t, workspace_.step);
+    system_.place(t, method.state());
+    if (jumps) {
+      row_before_.clear();
+      flyball::run(plan_->logs, *plan_, frame(*plan_, workspace_));
+      log_.read(workspace_.values, row_before_);
+    }
+    take_hits();
+    ++statistics_.regular_hits;
+    instant_.count_hits(due_);
+    const bool switched = regular_hits_.run(due_, method.largest());
+    time_ = t;
+    const bool was_asked = asked <= t + blur;
+    if (logs) log_instant(was_asked);
+    if (was_asked) asked = asked_.time(workspace_.log_position);
+    switched ? method.restart(t, x, workspace_.step, true) : method.hold();
+  }
+  if (done > 0) workspace_.rates_map.stale = workspace_.zeros_map.stale = workspace_.logs_map.stale = true;
+  return done;
 }
 
 RunStatistics Simulator::statistics() const {

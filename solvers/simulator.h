@@ -6,11 +6,14 @@
 #include <vector>
 
 #include "solvers/asked_times.h"
+#include "solvers/discrete_step.h"
+#include "solvers/exact_step.h"
 #include "solvers/instant.h"
 #include "solvers/log.h"
 #include "solvers/method.h"
 #include "solvers/parameters.h"
 #include "solvers/profile.h"
+#include "solvers/regular_hits.h"
 #include "solvers/step_polynomial.h"
 #include "solvers/stepper.h"
 
@@ -19,19 +22,24 @@ namespace flyball {
 struct LogOptions {
   bool enabled = true;
   EventRows event_rows = EventRows::both;
-  std::vector<double> times = {};  // [s], ascending: rows there instead of at SimulationSettings::log_interval
+  std::vector<double> times =
+      {};  // [s], ascending: rows there instead of at SimulationSettings::log_interval
 };
 
 /// What a run did, for its summary and the result's metadata.
 struct RunStatistics {
   StepperStatistics stepper;
-  long hits = 0;  // instants with at least one sampled block
+  long hits = 0;          // instants with at least one sampled block
+  long regular_hits = 0;  // of these, the ones that took RegularHits
   long alarms = 0;
   long events = 0;  // relations and crossings that fired
 };
 
 /// Tolerances and step limits, with their defaults.
 StepperOptions stepper_options(const SimulationSettings& settings);
+
+/// Why a run ends when this held value of Plan::run_ends is no longer 0.
+std::string end_reason(const Plan& plan, int slot);
 
 /// Runs one plan in one workspace: steps, finds events, carries out instants, logs.
 class Simulator {
@@ -84,9 +92,13 @@ class Simulator {
 
   void begin();
   double next_tick() const;
+  long run_regular_hits();
+  template <class Method>
+  long run_regular_hits(Method& method);
   double locate(double t0, double t1, double limit, bool& located);
   void instant(double t, double tick, bool located);
   void find_due(double t, double tick, bool located);
+  void take_hits();
   void check_alarms(double t) const;
   void find_end();
   void watch_progress(double t);
@@ -108,7 +120,10 @@ class Simulator {
   std::string method_;  // of make_stepper
   Zeros zeros_;
   Instant instant_;
+  RegularHits regular_hits_;
   std::unique_ptr<Stepper<double>> stepper_;
+  ExactStep* exact_ = nullptr;  // `stepper_`, where it is of this method
+  DiscreteStep* discrete_ = nullptr;
   Log log_;
   AffineProgram affine_log_;
   StepPolynomial polynomial_;

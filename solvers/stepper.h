@@ -13,6 +13,15 @@
 
 namespace flyball {
 
+/// Rates x' = matrix x + inputs w + offset, where the inputs w stand still until the next instant.
+struct LinearRates {
+  std::vector<double> matrix, inputs;  // by rows
+  std::vector<double> offset;
+  /// As long as no state and no input is larger, all that is computed on the way to the rates is finite.
+  double largest = std::numeric_limits<double>::max();
+  long version = 0;  // counts changes; 0: never set
+};
+
 /// The right-hand side of x' = f(t, x) between two instants, as a stepper sees it.
 template <class T>
 class System {
@@ -29,9 +38,11 @@ class System {
   /// `values[k]` belongs to pattern().row[k].
   virtual void jacobian(double t, const double* x, double* values) = 0;
 
-  /// The matrix A, by rows, where the rates are A x + b with constant A and b until the next instant; else
-  /// nullptr. Known after the first call of `rates` behind an instant.
-  virtual const std::vector<double>* linear_part() const { return nullptr; }
+  /// What the rates are until the next instant, where they are linear and do not depend on time by itself;
+  /// else nullptr.
+  virtual const LinearRates* linear_rates() { return nullptr; }
+  /// Gives the inputs of `linear_rates`.
+  virtual void held_inputs(double* /*w*/) const {}
 };
 
 struct StepperOptions {

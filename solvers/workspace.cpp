@@ -18,7 +18,7 @@ Workspace<T>::Workspace(const Plan& plan)
       sides(plan.layout.crossings(), 0),
       ticks(plan.hit_rates.size(), 0),
       next_objects(plan.layout.objects) {
-  for (auto make : plan.first_objects) objects.push_back(make());
+  for (const auto& make : plan.first_objects) objects.push_back(make());
   for (auto make : plan.first_memories) memories.push_back(make());
   for (const Start& literal : plan.literals) values[literal.slot] = T(literal.value);
   seed(plan, *this, plan.diagram->simulation.seed);

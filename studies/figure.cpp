@@ -64,7 +64,7 @@ std::string panel_script(const Panel& panel, const std::string& x_label) {
                                                   : fmt::format("(${}*{})", curve.column, curve.factor);
     script +=
         fmt::format("{}{} using {}:{} skip 1 with {} {}", is_first ? " " : ", \\\n     ",
-                    gnuplot_quoted(curve.csv), curve.x, value, curve.points ? "points pt 7 ps 0.4" : "lines",
+                    gnuplot_quoted(curve.csv), curve.x, value, curve.points ? "points pt 7 ps 0.7" : "lines",
                     legend ? "title " + gnuplot_quoted(curve.label) : "notitle");
   }
   return script + '\n';

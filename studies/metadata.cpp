@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "blocks/hash.h"
@@ -62,6 +64,28 @@ Json last_row_of(const Log& log) {
   return row;
 }
 
+/// A number that is not there is null.
+Json metrics_of(const Assessment& assessment) {
+  Json metrics = Json::object();
+  for (const auto& [name, text, unit, value] : assessment.metrics)
+    metrics[name] = {{"text", text}, {"value", value}, {"unit", unit}};
+  return metrics;
+}
+
+Json requirements_of(const Assessment& assessment) {
+  Json requirements = Json::object();
+  for (const auto& [name, text, unit, verdict] : assessment.requirements) {
+    requirements[name] = {{"text", text},
+                          {"passed", verdict.passed},
+                          {"margin", verdict.margin},
+                          {"value", verdict.value},
+                          {"time", verdict.time},
+                          {"unit", unit},
+                          {"message", verdict.message}};
+  }
+  return requirements;
+}
+
 constexpr std::string_view seal_begin = ",\n  \"metadata_checksum\": \"";
 
 /// The end of a sidecar: the checksum of all that stands before it.
@@ -83,6 +107,49 @@ void require_seal(std::string_view json) {
   throw MetadataError(
       fmt::format("changed or truncated: its text has the checksum {}, \"metadata_checksum\" is {}",
                   checksum(seal), checksum(json.substr(end))));
+}
+
+void read_model(const Json& model, ResultFacts& facts) {
+  facts.model_file = model.at("file");
+  facts.model_hash = model.at("hash");
+  facts.title = model.at("title");
+  facts.source = model.at("source");
+  for (const auto& [name, value] : model.at("set").items()) facts.overrides.push_back({name, value});
+}
+
+void read_solver(const Json& solver, ResultFacts& facts) {
+  facts.method = solver.at("method");
+  facts.asked_method = solver.at("asked");
+  facts.rtol = solver.at("rtol");
+  facts.atol = solver.at("atol");
+  const std::string reason = solver.at("reason");
+  facts.solver.emplace_back(
+      "method", facts.asked_method == "auto" ? facts.method + " (auto: " + reason + ")" : facts.method);
+  facts.solver.emplace_back("rtol", fmt::format("{:g}", facts.rtol));
+  facts.solver.emplace_back("atol", fmt::format("{:g}", facts.atol));
+  facts.solver.emplace_back("longest step", fmt::format("{:g} s", solver.at("max_step").get<double>()));
+  for (const auto& [name, count] : solver.at("statistics").items()) {
+    std::string words = name;
+    std::ranges::replace(words, '_', ' ');
+    facts.solver.emplace_back(words, std::to_string(count.get<long>()));
+  }
+}
+
+/// NaN where there is no number.
+double number_of(const Json& json) {
+  return json.is_number() ? json.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+void read_assessment(const Json& json, Assessment& assessment) {
+  const Json metrics = json.value("metrics", Json::object());
+  const Json requirements = json.value("requirements", Json::object());
+  for (const auto& [name, metric] : metrics.items())
+    assessment.metrics.push_back({name, metric.at("text"), metric.at("unit"), number_of(metric.at("value"))});
+  for (const auto& [name, each] : requirements.items()) {
+    const Verdict verdict{each.at("passed"), number_of(each.at("margin")), number_of(each.at("value")),
+                          number_of(each.at("time")), each.at("message")};
+    assessment.requirements.push_back({name, each.at("text"), each.at("unit"), verdict});
+  }
 }
 
 }  // namespace
@@ -108,6 +175,8 @@ std::string metadata_json(const RunResult& result, const RunInputs& inputs, std:
                {"columns", columns_of(result.log)},
                {"last_row", last_row_of(result.log)},
                {"libraries", Json::object()}};
+  if (!result.assessment.metrics.empty()) json["metrics"] = metrics_of(result.assessment);
+  if (!result.assessment.requirements.empty()) json["requirements"] = requirements_of(result.assessment);
   for (const Version& library : library_versions()) json["libraries"][library.name] = library.number;
   if (!csv.empty()) json["csv"] = {{"file", csv_name}, {"checksum", fingerprint(csv)}};
   // A path need not be UTF-8, JSON must be.
@@ -115,6 +184,31 @@ std::string metadata_json(const RunResult& result, const RunInputs& inputs, std:
   if (csv.empty()) return text + '\n';
   text.resize(text.size() - std::string_view("\n}").size());
   return text + seal_of(text);
+}
+
+ResultFacts read_result_facts(std::string_view text) {
+  try {
+    const Json json = Json::parse(text);
+    ResultFacts facts;
+    read_model(json.at("model"), facts);
+    read_solver(json.at("solver"), facts);
+    facts.status = json.at("status");
+    facts.reason = json.at("reason");
+    facts.end = json.at("end");
+    facts.stop = json.at("stop");
+    facts.seed = json.at("seed");
+    for (const Json& column : json.at("columns")) {
+      const std::string unit = column.at("unit");
+      if (column.at("name") != "time")
+        facts.columns.push_back({column.at("name"), unit.empty() ? "any" : unit, -1});
+    }
+    read_assessment(json, facts.assessment);
+    facts.flyball = json.at("flyball");
+    for (const auto& [name, number] : json.at("libraries").items()) facts.libraries.push_back({name, number});
+    return facts;
+  } catch (const Json::exception&) {
+    throw MetadataError("not the metadata of a result");
+  }
 }
 
 CsvMetadata read_csv_metadata(std::string_view json) {

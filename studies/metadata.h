@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "studies/run.h"
+#include "studies/versions.h"
 
 namespace flyball {
 
@@ -27,6 +28,25 @@ std::string model_fingerprint(std::string_view model_text, const Diagram& diagra
 /// before it.
 std::string metadata_json(const RunResult& result, const RunInputs& inputs, std::string_view csv_name = {},
                           std::string_view csv = {});
+
+/// What a sidecar says, for reports.
+struct ResultFacts {
+  std::string model_file, model_hash, title, source;
+  std::vector<Override> overrides;
+  std::string status, reason;  // as to_string(RunStatus)
+  double end = 0.0, stop = 0.0;
+  std::uint64_t seed = 1;
+  std::string method, asked_method;
+  double rtol = 0.0, atol = 0.0;
+  std::vector<std::pair<std::string, std::string>> solver;  // name and value, for people
+  std::vector<LogColumn> columns;                           // besides time
+  Assessment assessment;
+  std::string flyball;
+  std::vector<Version> libraries;
+};
+
+/// Reads the text of `metadata_json`, with or without a CSV file. Throws MetadataError.
+ResultFacts read_result_facts(std::string_view json);
 
 /// What the sidecar says about its CSV file.
 struct CsvMetadata {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "solvers/simulator.h"
+#include "studies/metrics/assessment.h"
 
 namespace flyball {
 
@@ -27,7 +28,8 @@ struct RunResult {
   double wall_time = 0.0;  // s
   RunStatus status = RunStatus::finished;
   std::optional<Profile> profile = {};
-  std::string reason = {};  // of a stop, and of an end before the stop time that the model asked for
+  Assessment assessment = {};  // where it was asked for
+  std::string reason = {};     // of a stop, and of an end before the stop time that the model asked for
 };
 
 /// Runs a plan once. `progress` gets the part done, from 0 to 1, and interrupts the run by giving false.

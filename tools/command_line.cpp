@@ -99,12 +99,45 @@ void add_output(CLI::App* command, RunOptions& options) {
       ->check(CLI::IsMember({"both", "after", "none"}));
 }
 
+/// Whether a name ends like that of a report.
+std::string is_html_file(const std::string& name) {
+  if (std::filesystem::path(name).extension() == ".html") return {};
+  return fmt::format("expected the name of a .html file, found \"{}\"", name);
+}
+
+void add_criteria(CLI::App* command, RunOptions& options) {
+  const auto read_metric = [&options](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      const std::size_t equals = text.find('=');
+      if (equals == std::string::npos || equals == 0)
+        throw CLI::ValidationError("--metric", fmt::format("expected NAME=TEXT, found \"{}\"", text));
+      options.metrics.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+  };
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--metric", read_metric, "A number to make of the run, such as \"t=settling(y, 2 %)\"")
+      ->type_name("NAME=TEXT")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--require", options.requirements,
+                   "What must hold, such as \"max(y) < 5 V\"; exit status 1 where it does not")
+      ->type_name("TEXT")
+      ->allow_extra_args(false);
+  command->add_option("--junit", options.junit, "Where to write the verdicts as JUnit XML")
+      ->type_name("FILE.xml");
+  command->add_option("--report", options.report, "Where to write a report of the run")
+      ->type_name("FILE.html")
+      ->check(is_html_file);
+}
+
 CLI::App* add_run(CLI::App& app, RunOptions& options) {
   CLI::App* command = app.add_subcommand("run", "Run a model and write its results");
   command->add_option("MODEL", options.model, "Model file")->required()->type_name("FILE");
   add_output(command, options);
   add_overrides(command, options.overrides);
   add_solver_options(command, options);
+  add_criteria(command, options);
   command->add_flag("--profile", options.profile,
                     "Show time and events by block, step sizes over time, and which states limited them");
   command->add_flag("--json", options.json, "Print the summary as JSON");
@@ -226,6 +259,24 @@ CLI::App* add_fit(CLI::App& app, FitOptions& options) {
   return command;
 }
 
+CLI::App* add_report(CLI::App& app, ReportOptions& options) {
+  CLI::App* command = app.add_subcommand("report", "Make one HTML file of a result, which needs no network");
+  const auto is_result = [](const std::string& name) -> std::string {
+    if (std::filesystem::path(name).extension() == ".csv") return {};
+    return fmt::format("expected the .csv file of a result, found \"{}\"", name);
+  };
+  command->add_option("RESULT", options.input, "The .csv file that a run has written")
+      ->required()
+      ->type_name("FILE.csv")
+      ->check(is_result);
+  command->add_option("-o,--output", options.output, "The report; else it stands beside the result")
+      ->type_name("FILE.html")
+      ->check(is_html_file);
+  command->add_flag("-q,--quiet", options.quiet, "Print errors only");
+  command->footer("Example:\n  flyball report result.csv --output report.html");
+  return command;
+}
+
 CLI::App* add_format(CLI::App& app, FormatOptions& options) {
   CLI::App* command = app.add_subcommand("format", "Put model files into the one layout; comments stay");
   command->add_option("FILE", options.files, "Model files, rewritten in place")
@@ -336,6 +387,7 @@ int parse_and_run(int argc, const char* const* argv) {
   CheckOptions check;
   GraphOptions graph;
   FitOptions fit;
+  ReportOptions report;
   FormatOptions format;
   DiffOptions diff;
   BlocksOptions blocks;
@@ -347,6 +399,7 @@ int parse_and_run(int argc, const char* const* argv) {
   const CLI::App* check_app = add_check(app, check);
   const CLI::App* graph_app = add_graph(app, graph);
   const CLI::App* fit_app = add_fit(app, fit);
+  const CLI::App* report_app = add_report(app, report);
   const CLI::App* format_app = add_format(app, format);
   const CLI::App* diff_app = add_diff(app, diff);
   add_blocks(app, blocks);
@@ -365,6 +418,7 @@ int parse_and_run(int argc, const char* const* argv) {
   if (check_app->parsed()) return check_command(check);
   if (graph_app->parsed()) return graph_command(graph);
   if (fit_app->parsed()) return fit_command(fit);
+  if (report_app->parsed()) return report_command(report);
   if (format_app->parsed()) return format_command(format);
   if (diff_app->parsed()) return diff_command(diff);
   if (study_app->got_subcommand("merge")) return merge_command(merge);

@@ -28,6 +28,10 @@ struct RunOptions {
   std::optional<Rational> log_interval;
   std::optional<std::string> method;
   EventRows event_rows = EventRows::both;
+  std::vector<std::pair<std::string, std::string>> metrics;  // by name, besides the model's own
+  std::vector<std::string> requirements;
+  std::string junit;   // XML file; empty: none
+  std::string report;  // HTML file; empty: none
   bool profile = false;
   bool json = false;
   bool quiet = false;
@@ -57,6 +61,12 @@ struct GraphOptions {
   std::vector<Override> overrides;
   bool order = false;
   bool json = false;
+};
+
+struct ReportOptions {
+  std::string input;   // CSV file of a result
+  std::string output;  // HTML file; empty: beside the input
+  bool quiet = false;
 };
 
 struct BlocksOptions {
@@ -114,6 +124,7 @@ int format_command(const FormatOptions& options);
 int diff_command(const DiffOptions& options);
 int fit_command(const FitOptions& options);
 int graph_command(const GraphOptions& options);
+int report_command(const ReportOptions& options);
 int blocks_command(const BlocksOptions& options);
 int study_command(const StudyCommandOptions& options);
 int merge_command(const MergeOptions& options);

@@ -13,6 +13,8 @@ ModelFile load_model(const std::string& file, const std::vector<Override>& overr
   if (auto diagram = read_diagram(model.text, diagnostics, overrides)) {
     model.plan = make_plan(std::make_shared<const Diagram>(*std::move(diagram)), diagnostics);
   }
+  if (model.plan != nullptr) model.criteria = read_criteria(*model.plan, diagnostics);
+  if (diagnostics.failed()) model.plan = nullptr;
   model.diagnostics = diagnostics.sorted();
   model.errors = count_errors(model.diagnostics);
   return model;

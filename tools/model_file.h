@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "models/plan.h"
+#include "studies/metrics/criteria.h"
 
 namespace flyball {
 
@@ -15,6 +16,7 @@ struct ModelFile {
   std::vector<Diagnostic> diagnostics;  // sorted by position
   int errors = 0;
   std::shared_ptr<const Plan> plan;  // nullptr when there are errors
+  Criteria criteria;                 // of its own
 };
 
 /// Throws FileError when the file cannot be read.

@@ -43,7 +43,8 @@ Json structure(const StructureSpec& key) {
   } else if (key.fallback == "true" || key.fallback == "false") {
     json["type"] = "boolean";
   } else if (key.fallback.starts_with('[')) {
-    json["type"] = "array";
+    // A list of one may be written as its value.
+    json["type"] = {"array", "number", "string"};
   }
   return json;
 }
@@ -285,7 +286,9 @@ std::string model_schema() {
       {"blocks", blocks},
       {"diagram", table({{"wires", list_of(text("such as \"a -> b.port\""))},
                          {"log", list_of(text("a signal to record"))}})},
-      {"simulation", simulation()}};
+      {"simulation", simulation()},
+      {"metrics", {{"type", "object"}, {"additionalProperties", text("such as \"settling(y, 2 %)\"")}}},
+      {"requirements", {{"type", "object"}, {"additionalProperties", text("such as \"max(y) < 5 V\"")}}}};
   return schema_of("Flyball model", std::move(properties), {"flyball", "blocks"}, std::move(definitions));
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "studies/table.h"
 
 namespace flyball {
@@ -48,6 +50,27 @@ std::string final_values(const Log& log) {
     table.row({column.name, fmt::format("{:.6g}", log.value(last, c)), has_unit ? column.unit : ""});
   }
   return table.text();
+}
+
+std::string assessment_tables(const Assessment& assessment) {
+  std::string text;
+  if (!assessment.metrics.empty()) {
+    Table table({"metric", "value", "unit"});
+    for (const MetricResult& metric : assessment.metrics) {
+      table.row({metric.name, std::isnan(metric.value) ? "none" : fmt::format("{:.6g}", metric.value),
+                 metric.unit == "1" ? "" : metric.unit});
+    }
+    text += '\n' + table.text();
+  }
+  if (!assessment.requirements.empty()) {
+    Table table({"requirement", "verdict", "found"});
+    for (const RequirementResult& requirement : assessment.requirements) {
+      table.row(
+          {requirement.name, requirement.verdict.passed ? "passed" : "FAILED", requirement.verdict.message});
+    }
+    text += '\n' + table.text();
+  }
+  return text;
 }
 
 }  // namespace flyball

@@ -12,4 +12,8 @@ std::string run_summary(const RunResult& result, const RunInputs& inputs, bool m
 /// The last row of the log, a line a signal, with units.
 std::string final_values(const Log& log);
 
+/// A table of metrics and one of requirements with their verdicts, each behind an empty line; nothing
+/// without.
+std::string assessment_tables(const Assessment& assessment);
+
 }  // namespace flyball

@@ -7,6 +7,7 @@ struct DifferentialDriveInverse : DifferentialDriveTerms {
   static constexpr auto summary =
       "The wheel speeds that give a robot with two driven wheels a wanted motion.";
   using DifferentialDriveTerms::DifferentialDriveTerms;
+  SampleTime ts = sample_time_if_given();
   Input speed = input("v", "m/s", "wanted forward speed");
   Input turn = input("omega", "rad/s", "wanted rate of turn, counter-clockwise positive");
   Output right = output("right", "rad/s", "angular speed of the right wheel, forward positive");

@@ -211,6 +211,28 @@ std::optional<CsvTable> read_csv(std::string_view text, Diagnostics& diagnostics
   return CsvReader(text, diagnostics).read();
 }
 
+std::optional<std::vector<std::vector<double>>> read_columns(const CsvTable& table,
+                                                             const std::vector<std::string>& names,
+                                                             const std::string& unit,
+                                                             Diagnostics& diagnostics) {
+  const int errors = diagnostics.errors();
+  std::vector<std::vector<double>> rows(static_cast<std::size_t>(table.rows()));
+  for (const std::string& name : names) {
+    const int column = table.find(name);
+    if (column < 0) {
+      diagnostics.error({1, 1}, message::csv_unknown_column(name, names_of(table)));
+      continue;
+    }
+    const CsvTable::Column& header = table.columns[static_cast<std::size_t>(column)];
+    const Unit in = header.unit.empty() ? parse_unit(unit) : parse_unit(header.unit);
+    if (in.dimension != parse_unit(unit).dimension)
+      diagnostics.error({1, 1}, message::wrong_dimension(unit, parse_unit(unit).dimension, in.dimension));
+    for (int row = 0; row < table.rows(); ++row)
+      rows[static_cast<std::size_t>(row)].push_back(table.at(row, column) * in.factor + in.offset);
+  }
+  return diagnostics.errors() == errors ? std::optional(std::move(rows)) : std::nullopt;
+}
+
 std::shared_ptr<const TimeSeries> read_time_series(const CsvTable& table, std::string_view name,
                                                    Diagnostics& diagnostics) {
   const int errors = diagnostics.errors();

@@ -40,6 +40,13 @@ inline constexpr std::size_t largest_csv = 1'000'000'000;
 std::optional<CsvTable> read_csv(std::string_view text, Diagnostics& diagnostics);
 inline constexpr int most_csv_errors = 10;
 
+/// The columns of these names, in their order and in SI, row by row; a column without a unit is in `unit`.
+/// Reports what is wrong; then the result is empty.
+std::optional<std::vector<std::vector<double>>> read_columns(const CsvTable& table,
+                                                             const std::vector<std::string>& names,
+                                                             const std::string& unit,
+                                                             Diagnostics& diagnostics);
+
 /// A column over the first one, which is time: both in SI, by the units in the header (s, and none, without).
 /// `name` may be empty when there are two columns. Reports what is wrong; then the result is empty. Times
 /// must not fall; two rows of one time are the sides of a jump.

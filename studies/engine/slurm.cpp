@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "studies/shell.h"
+
 namespace flyball {
 namespace {
 
@@ -47,17 +49,6 @@ std::string plain(std::string name) {
 }
 
 }  // namespace
-
-std::string shell_quoted(const std::string& text) {
-  const auto harmless = [](unsigned char c) {
-    return std::isalnum(c) != 0 ||
-           std::string_view("_-./+:=").find(static_cast<char>(c)) != std::string_view::npos;
-  };
-  if (!text.empty() && text[0] != '-' && std::ranges::all_of(text, harmless)) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + '\'';
-}
 
 std::string slurm_script(const SlurmJob& job) {
   return fmt::format(

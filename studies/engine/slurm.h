@@ -20,7 +20,4 @@ struct SlurmJob {
 /// ended and queued again goes on where it was.
 std::string slurm_script(const SlurmJob& job);
 
-/// 'text' for a shell.
-std::string shell_quoted(const std::string& text);
-
 }  // namespace flyball

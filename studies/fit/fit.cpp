@@ -7,10 +7,10 @@
 #include <limits>
 
 #include "blocks/random.h"
+#include "studies/engine/run_setup.h"
 #include "studies/fit/identification.h"
 #include "studies/fit/least_squares.h"
 #include "studies/fit/objective.h"
-#include "studies/fit/simulation_settings.h"
 #include "studies/language/study_messages.h"
 
 namespace flyball {
@@ -33,7 +33,7 @@ class Fit {
   FitResult run();
 
  private:
-  std::shared_ptr<const Plan> plan_of(const FitExperiment& experiment);
+  std::vector<Setting> settings_of(const FitExperiment& experiment) const;
   void check_matches(const FitExperiment& experiment, const Plan& plan) const;
   ComparedRun compared_run(const FitExperiment& experiment);
   std::optional<Judgement> judgement();
@@ -84,11 +84,11 @@ Fit::Fit(const Study& study, const FitDefinition& fit, Evaluator& evaluator, int
   result_.name = fit.name;
 }
 
-/// Settings that are texts, such as methods and sample times, take another plan.
-std::shared_ptr<const Plan> Fit::plan_of(const FitExperiment& experiment) {
-  const auto is_text = [](const Setting& s) { return std::holds_alternative<std::string>(s.value); };
-  if (std::ranges::none_of(experiment.settings, is_text)) return study_.models[fit_.model].plan;
-  return told([&] { return evaluator_.plan(fit_.model, experiment.settings); });
+/// Those for the model of the fit.
+std::vector<Setting> Fit::settings_of(const FitExperiment& experiment) const {
+  std::vector<Setting> settings = experiment.settings;
+  std::erase_if(settings, [&](const Setting& s) { return s.model >= 0 && s.model != fit_.model; });
+  return settings;
 }
 
 void Fit::check_matches(const FitExperiment& experiment, const Plan& plan) const {
@@ -109,15 +109,12 @@ void Fit::check_matches(const FitExperiment& experiment, const Plan& plan) const
 
 ComparedRun Fit::compared_run(const FitExperiment& experiment) {
   SignalRequest request;
-  request.plan = plan_of(experiment);
+  // The run's own settings, methods and sample times take another plan, if need be.
+  RunSetup setup = told([&] { return Setups(study_.models).make(fit_.model, settings_of(experiment)); });
+  request.plan = std::move(setup.plan);
+  request.settings = std::move(setup.settings);
+  request.set = std::move(setup.parameters);
   check_matches(experiment, *request.plan);
-  request.settings = request.plan->diagram->simulation;
-  for (const Setting& setting : experiment.settings) {
-    const double* value = std::get_if<double>(&setting.value);
-    if (value == nullptr || told([&] { return set_simulation(request.settings, setting.name, *value); }))
-      continue;
-    request.set.emplace_back(setting.name, *value);
-  }
   Measurements measured = read_measurements(experiment, request.plan->columns);
   std::vector<double> weights;
   for (const FitExperiment::Match& match : experiment.matches) {
@@ -133,7 +130,7 @@ ComparedRun Fit::compared_run(const FitExperiment& experiment) {
 std::optional<Judgement> Fit::judgement() {
   if (fit_.requirements.empty() && fit_.minimise.empty()) return std::nullopt;
   std::vector<std::vector<Setting>> runs;
-  for (const FitExperiment& experiment : fit_.experiments) runs.push_back(experiment.settings);
+  for (const FitExperiment& experiment : fit_.experiments) runs.push_back(settings_of(experiment));
   if (runs.empty()) runs.emplace_back();
   return Judgement(study_, fit_, unknowns_, std::move(runs), evaluator_, threads_);
 }
@@ -260,7 +257,8 @@ void Fit::identify_parameters() {
   if (!objective_.evaluate(best_.x, residuals.data(), jacobian.data())) return;
   keep_curves(&FittedSignal::after);
   const auto rows = static_cast<std::size_t>(objective_.data_size());
-  identify({{residuals.data(), rows}, {jacobian.data(), rows * unknowns_.size()}, scales}, result_);
+  const bool exact = objective_.gradient() != "numeric";
+  identify({{residuals.data(), rows}, {jacobian.data(), rows * unknowns_.size()}, scales, exact}, result_);
 }
 
 FitResult Fit::run() {

@@ -15,8 +15,8 @@ constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 /// Columns of the Jacobian, scaled by parameters, that are this much shorter than the longest are noise.
 constexpr double no_influence = 1e-9;
 /// A direction of parameters along which residuals change this much less than along others is not told:
-/// derivatives are not more exact than that.
-constexpr double not_told = 1e-8;
+/// derivatives are not more exact than that, or as differences.
+constexpr double not_told_exactly = 1e-8, not_told_by_differences = 1e-5;
 constexpr double strongly_correlated = 0.99;
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -88,6 +88,7 @@ void Identification::decompose() {
   values.head(svd.singularValues().size()) = svd.singularValues();
   const double largest = values[0], least = values[values.size() - 1];
   result_.condition = least > 0.0 ? largest / least : std::numeric_limits<double>::infinity();
+  const double not_told = fit_.exact ? not_told_exactly : not_told_by_differences;
   untold_ = least <= not_told * largest;
   weakest_ = svd.matrixV().col(scaled.cols() - 1);
   // What is not told has a variance without end; this keeps the correlation that goes with it.

@@ -13,6 +13,7 @@ struct DataFit {
   std::span<const double> residuals;
   std::span<const double> jacobian;  // by the parameters over their scales, row by row
   std::span<const double> scales;
+  bool exact = true;  // whether the Jacobian has no error of differences
 };
 
 /// Fills in standard errors, correlation and condition of a result whose parameters have their values, and

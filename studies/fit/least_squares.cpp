@@ -2,6 +2,7 @@
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,10 @@
 namespace flyball {
 namespace {
 
+bool all_finite(const double* numbers, std::size_t count) {
+  return std::all_of(numbers, numbers + count, [](double x) { return std::isfinite(x); });
+}
+
 /// All residuals as one function of all unknowns.
 class Residuals final : public ceres::CostFunction {
  public:
@@ -19,8 +24,12 @@ class Residuals final : public ceres::CostFunction {
     mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.start.size()));
   }
   bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
-    return problem_.evaluate({parameters[0], problem_.start.size()}, residuals,
-                             jacobians == nullptr ? nullptr : jacobians[0]);
+    double* const jacobian = jacobians == nullptr ? nullptr : jacobians[0];
+    if (!problem_.evaluate({parameters[0], problem_.start.size()}, residuals, jacobian)) return false;
+    // Ceres would complain about other numbers on standard error.
+    const auto rows = static_cast<std::size_t>(problem_.residuals);
+    return all_finite(residuals, rows) &&
+           (jacobian == nullptr || all_finite(jacobian, rows * problem_.start.size()));
   }
 
  private:
@@ -31,19 +40,21 @@ class Progress final : public ceres::IterationCallback {
  public:
   explicit Progress(const LeastSquaresProblem& problem) : problem_(problem) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    const bool goes_on = !problem_.progress || problem_.progress(summary.iteration, summary.cost);
+    if (summary.iteration == 0 || summary.step_is_successful) cost_ = summary.cost;
+    const bool goes_on = !problem_.progress || problem_.progress(summary.iteration, cost_);
     return goes_on ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
 
  private:
   const LeastSquaresProblem& problem_;
+  double cost_ = 0.0;  // of the last step that was taken
 };
 
 ceres::Solver::Options solver_options(const LeastSquaresProblem& problem) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = problem.max_iterations;
-  options.function_tolerance = 1e-12;
+  options.function_tolerance = 1e-15;
   options.parameter_tolerance = 1e-10;
   // A gradient has the size of the data: no absolute bound fits all.
   options.gradient_tolerance = 0.0;
@@ -76,9 +87,19 @@ std::string reason_of(const ceres::Solver::Summary& summary, int max_iterations)
   return summary.message;
 }
 
+/// Ceres logs failures to standard error, whatever its options say; here they are part of the answer.
+void silence_log() {
+  static const bool once = [] {
+    FLAGS_minloglevel = google::GLOG_FATAL;
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
 }  // namespace
 
 LeastSquaresSolution minimise(const LeastSquaresProblem& problem) {
+  silence_log();
   LeastSquaresSolution solution;
   solution.x = problem.start;
   for (std::size_t i = 0; i < solution.x.size(); ++i)

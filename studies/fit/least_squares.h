@@ -28,7 +28,7 @@ struct LeastSquaresSolution {
   int iterations = 0;
 };
 
-/// The Levenberg-Marquardt method of Ceres on dense matrices. It ends where the cost falls by less than 1e-12
+/// The Levenberg-Marquardt method of Ceres on dense matrices. It ends where the cost falls by less than 1e-15
 /// of itself, or unknowns move by less than 1e-10 of their length: they should be of the order of 1.
 LeastSquaresSolution minimise(const LeastSquaresProblem& problem);
 

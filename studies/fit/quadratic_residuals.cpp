@@ -1,12 +1,14 @@
 #include "studies/fit/quadratic_residuals.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flyball {
 namespace {
 
-/// A direction without curvature keeps this part of the largest one.
+/// A direction without curvature keeps this part of the largest one, or of the one that the slope asks for.
 constexpr double least_curvature = 1e-6;
 
 }  // namespace
@@ -18,8 +20,9 @@ QuadraticResiduals::QuadraticResiduals(double value, const Eigen::VectorXd& grad
   const Eigen::Index n = gradient.size();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(hessian);
   Eigen::VectorXd curvature = eigen.eigenvalues().cwiseAbs();
-  const double least = least_curvature * curvature.maxCoeff() + std::numeric_limits<double>::min();
-  curvature = curvature.cwiseMax(least);
+  const double steepness = value > 0.0 ? gradient.squaredNorm() / value : 0.0;
+  const double least = least_curvature * std::max(curvature.maxCoeff(), steepness);
+  curvature = curvature.cwiseMax(least + std::numeric_limits<double>::min());
   const Eigen::VectorXd along = eigen.eigenvectors().transpose() * gradient;
   const double drop = 0.5 * (along.array().square() / curvature.array()).sum();
   if (drop > value) curvature *= value > 0.0 ? drop / value : 1.0;

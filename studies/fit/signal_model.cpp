@@ -38,6 +38,7 @@ SignalModel::SignalModel(SignalRequest request, const std::vector<Unknown>& unkn
     row_.push_back(static_cast<int>(times_.size()) - 1);
   }
   for (const std::string& signal : request_.signals) columns_.push_back(column_of(*request_.plan, signal));
+  for (const Unknown& unknown : unknowns_) slots_.push_back(settable_parameter(*request_.plan, unknown.name));
   request_.settings = settings_until(times_.back(), request_.settings);
   if (request_.exact) make_exact();
 }
@@ -113,9 +114,9 @@ bool SignalModel::run_plain(std::span<const double> parameters, std::vector<doub
   ++simulations_;
   try {
     Simulator simulator(request_.plan, settings, {true, EventRows::none, times_});
-    for (const auto& [name, value] : request_.set) simulator.set_parameter(name, value);
-    for (std::size_t p = 0; p < parameters.size(); ++p)
-      simulator.set_parameter(unknowns_[p].name, parameters[p]);
+    ParameterSet set = request_.set;
+    for (std::size_t p = 0; p < parameters.size(); ++p) set.emplace_back(slots_[p], parameters[p]);
+    simulator.set_parameters(set);
     simulator.run();
     const Log& log = simulator.log();
     if (log.rows() != static_cast<std::int64_t>(times_.size())) {

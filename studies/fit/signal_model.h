@@ -16,10 +16,10 @@ namespace flyball {
 struct SignalRequest {
   std::shared_ptr<const Plan> plan;
   SimulationSettings settings;
-  std::vector<std::pair<std::string, double>> set;  // parameters of this experiment [SI]
-  std::vector<std::string> signals;                 // names of logged columns
-  std::vector<double> times;                        // [s]; they do not fall
-  bool exact = true;                                // whether derivatives are wanted from Sensitivities
+  ParameterSet set;                  // of this experiment
+  std::vector<std::string> signals;  // names of logged columns
+  std::vector<double> times;         // [s]; they do not fall
+  bool exact = true;                 // whether derivatives are wanted from Sensitivities
 };
 
 /// Logged signals at given times as functions of the parameters, with their derivatives: exact ones, or
@@ -58,6 +58,7 @@ class SignalModel {
   std::vector<Unknown> unknowns_;
   std::vector<double> times_;  // without repetitions
   std::vector<int> row_;       // of each time of the request, in times_
+  std::vector<int> slots_;     // of the parameters
   std::vector<int> columns_;   // of the signals, in the plan's
   std::unique_ptr<Sensitivities> exact_;
   std::vector<double> parameters_;  // of the last run

@@ -46,7 +46,10 @@ Range range_of(const Plan& plan, int slot) {
 
 std::vector<std::string> settable_names(const Plan& plan) {
   std::vector<std::string> names;
-  for (const Start& literal : plan.literals) names.push_back(plan.slot_name(literal.slot));
+  for (const Start& literal : plan.literals) {
+    const std::string name = plan.slot_name(literal.slot);
+    if (plan.parameter_slot(name) == literal.slot) names.push_back(name);  // a sample time has no name
+  }
   return names;
 }
 

@@ -47,7 +47,7 @@ class ExperimentReader {
     if (!report_.expect(data, Kind::string, "the name of a file in quotes")) return;
     result_.data = path_beside(report_.file(), data.text);
     errno = 0;
-    const auto content = read_file_content(result_.data);
+    const auto content = read_file_content(result_.data, largest_csv);
     if (!content) return report_.error(data, message::unreadable_file(result_.data, std::strerror(errno)));
     Diagnostics found(result_.data);
     csv_ = read_csv(*content, found);

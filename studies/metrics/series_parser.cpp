@@ -41,6 +41,15 @@ std::size_t end_of_arguments(std::string_view text, std::size_t at, int& unnamed
   return at;
 }
 
+/// A signal may have a unit with broken exponents, which no expression can name.
+Quantity signal_quantity(const std::string& unit) {
+  try {
+    return Quantity(unit);
+  } catch (const TextError&) {
+    return {};
+  }
+}
+
 /// Whether the language has a function of this name that takes other arguments: min(a, b) is one of two
 /// numbers, min(a) the least value of a signal.
 bool means_language(std::string_view name, int unnamed) {
@@ -74,7 +83,8 @@ Operand SeriesParser::operand_named(const std::string& name) const {
 Quantity SeriesParser::quantity_of(const Operand& operand) const {
   const auto index = static_cast<std::size_t>(operand.index);
   if (operand.kind == Operand::Kind::time) return Quantity("s");
-  return operand.kind == Operand::Kind::column ? Quantity(columns_[index].unit) : calls_[index].quantity;
+  return operand.kind == Operand::Kind::column ? signal_quantity(columns_[index].unit)
+                                               : calls_[index].quantity;
 }
 
 SeriesExpression SeriesParser::expression(std::size_t& at, std::size_t end, Wanted wanted) {

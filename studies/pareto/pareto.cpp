@@ -15,6 +15,7 @@
 
 #include "studies/parameter_unit.h"
 #include "studies/pareto/front_search.h"
+#include "studies/pareto/mopso.h"
 
 namespace flyball {
 namespace {
@@ -54,11 +55,21 @@ pagmo::algorithm make_algorithm(const ParetoDefinition& definition, unsigned gen
     nspso.set_bfe(batch);
     return pagmo::algorithm(nspso);
   }
+  if (definition.algorithm == "mopso") {
+    Mopso mopso(generations, seed);
+    mopso.set_bfe(batch);
+    return pagmo::algorithm(mopso);
+  }
   if (definition.algorithm == "moead") {
     // Each solution is tried on its neighbours as soon as it is there: one evaluation after the other.
     const auto neighbours = std::min<unsigned>(20, static_cast<unsigned>(definition.population) - 1);
     return pagmo::algorithm(pagmo::moead(generations, "low discrepancy", "tchebycheff", neighbours, 1.0, 0.5,
                                          20.0, 0.9, 2, true, seed));
+  }
+  if (definition.algorithm == "mopso") {
+    Mopso mopso(generations, seed);
+    mopso.set_bfe(batch);
+    return pagmo::algorithm(mopso);
   }
   throw std::invalid_argument(fmt::format("there is no algorithm \"{}\"", definition.algorithm));
 }

@@ -69,11 +69,6 @@ TEST_CASE("the arcsine is a right angle beyond 1, where it is level") {
   }
 }
 
-TEST_CASE("whole parts go towards 0, and signs are 1, 0 or -1") {
-  CHECK((whole_part(2.7) == 2.0 && whole_part(-2.7) == -2.0 && whole_part(0.3) == 0.0));
-  CHECK((sign_of(0.1) == 1.0 && sign_of(-3.0) == -1.0 && sign_of(0.0) == 0.0));
-}
-
 TEST_CASE("a body moves exactly under velocities that are constant in its frame") {
   const auto by = [](double vx, double vy, double omega, double t) {
     return Increment<double>{vx * t, vy * t, omega * t};

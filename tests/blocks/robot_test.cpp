@@ -81,6 +81,15 @@ TEST_CASE("MecanumInverse turns motions into wheel speeds") {
   check_inverse(d, from_paper({0.3, 0.1, 0.5}), {0.5, 3.5, -8.5, 12.5}, rounding);
 }
 
+TEST_CASE("MecanumInverse slows a motion down as a whole when a wheel would be too fast") {
+  Device d("MecanumInverse", {{"limit", 15.0}});
+  check_inverse(d, {0.45, -0.3, 1.0}, {7.5, 3.75, -3.75, 15.0}, rounding);
+  CHECK(std::fabs(d["scale"] - 0.625) <= 4 * 0x1p-53);
+  check_inverse(d, {-0.45, 0.3, -1.0}, {-7.5, -3.75, 3.75, -15.0}, rounding);
+  check_inverse(d, {0.45, 0.0, 0.0}, {9.0, 9.0, 9.0, 9.0}, rounding);
+  CHECK(d["scale"] == 1.0);
+}
+
 TEST_CASE("MecanumInverse with rollers at 60 degrees") {
   Device d("MecanumInverse", {{"roller_angle", 60.0 * degree}});
   check_inverse(d, from_paper({0.3, 0.1, 0.5}), {1.979274058, 2.020725942, -4.907477288, 8.907477288},

@@ -52,6 +52,11 @@ class TableSettings : public Settings {
   std::shared_ptr<const Formula> formula(std::string_view key, const std::vector<std::string>&) override {
     return get<std::shared_ptr<const Formula>>(key).value_or(nullptr);
   }
+  std::optional<NumberRows> lengths(std::string_view key) override { return get<Table>(key); }
+  std::optional<NumberRows> columns(std::string_view file, const std::vector<std::string>&,
+                                    const std::string&) override {
+    return get<Table>(file);
+  }
   std::shared_ptr<const TimeSeries> time_series(std::string_view file, std::string_view) override {
     return get<std::shared_ptr<const TimeSeries>>(file).value_or(nullptr);
   }

@@ -177,23 +177,47 @@ std::vector<Case> controller_cases() {
   return all;
 }
 
-std::vector<Case> robot_cases() {
-  const Keys sampled{{"sample_time", *Rational::fraction(1, 100)}};
-  const auto with = [&](Keys keys) {
-    keys.insert(sampled.begin(), sampled.end());
-    return keys;
-  };
-  return {
-      {"PoseIntegrator", "midpoint", with({{"method", "midpoint"s}})},
-      {"PoseIntegrator", "sideways, by Euler", with({{"method", "euler"s}, {"sideways", true}})},
-  };
+/// Lines have two ends, circles and landmarks are elsewhere, distances are within that of the approach.
+Domain domain_of(const std::string& type) {
+  const Range far{3.0, 5.0}, large{10.0, 20.0};
+  if (type == "TrigonometricFunction") return {0.9};
+  // Slow enough for a difference quotient of its phase, which grows with the square of time.
+  if (type == "Chirp") return {0.1};
+  if (type == "LandmarkSensor") return {2.0, false, {{"landmark_x", far}}};
+  if (type == "LineNavigation") return {2.0, false, {{"x2", far}, {"approach_distance", large}}};
+  if (type == "ArcNavigation") return {2.0, false, {{"centre_x", far}, {"approach_distance", large}}};
+  if (type == "PathSequencer") return {2.0, false, {{"end_x[0]", far}, {"end_x[1]", far}, {"end_x[2]", far}}};
+  if (type == "PurePursuit") return {2.0, false, {{"lookahead", far}}};
+  if (type == "Stanley") return {2.0, false, {{"v", far}}};
+  return {};
 }
 
-double default_span(const std::string& type) {
-  if (type == "TrigonometricFunction") return 0.9;
-  // Slow enough for a difference quotient of its phase, which grows with the square of time.
-  if (type == "Chirp") return 0.1;
-  return 2.0;
+std::vector<Case> robot_cases() {
+  std::vector<Case> all;
+  const auto add = [&](const std::string& type, const std::string& label, Keys keys) {
+    if (type != "LandmarkCorrection") keys.insert({"sample_time", *Rational::fraction(1, 100)});
+    all.push_back({type, label, std::move(keys), domain_of(type)});
+  };
+  // Forward speed outweighs the rest, whatever the bits of the signs say.
+  all.push_back({"MecanumInverse",
+                 "limit",
+                 {{"limit", 5.0}},
+                 {2.0, false, {{"vx", {30.0, 50.0}}, {"roller_angle", {0.7, 0.9}}}}});
+  add("PoseIntegrator", "midpoint", {{"method", "midpoint"s}});
+  add("PoseIntegrator", "sideways, by Euler", {{"method", "euler"s}, {"sideways", true}});
+  add("Encoder", "with fractions", {{"quantised", false}});
+  add("EncoderOdometry", "gyro", {{"heading", "gyro"s}, {"corrected", true}});
+  add("EncoderOdometry", "complementary", {{"heading", "complementary"s}});
+  for (const char* convention : {"ahead", "behind", "printed"})
+    add("LandmarkCorrection", convention, {{"convention", std::string(convention)}});
+  add("LineNavigation", "old law", {{"law", "old"s}});
+  add("ArcNavigation", "old law", {{"law", "old"s}});
+  add("DeviationPID", "limits", {{"sum_limit", 0.7}, {"limit", 1.3}});
+  add("DeviationPID", "printed", {{"integral", "printed"s}});
+  const Numbers three{1.0, 2.0, 3.0};
+  add("PathSequencer", "three parts",
+      {{"parts", 3.0}, {"end_x", three}, {"end_y", three}, {"end_theta", three}, {"curvature", three}});
+  return all;
 }
 
 }  // namespace
@@ -201,7 +225,7 @@ double default_span(const std::string& type) {
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const BlockType& type : catalogue()) {
-    all.push_back({type.name, "default", {}, {default_span(type.name)}});
+    all.push_back({type.name, "default", {}, domain_of(type.name)});
   }
   for (auto more : {function_cases(), continuous_cases(), source_cases(), sampled_cases(), table_cases(),
                     controller_cases(), robot_cases()}) {
@@ -225,14 +249,16 @@ double Random::uniform(double lower, double upper) {
 double draw(const SlotSpec& slot, const Domain& domain, Random& random) {
   if (slot.kind == SlotKind::time) return random.uniform(0.0, 5.0);
   if (slot.kind == SlotKind::held && random.word() % 3 == 0) return 0.0;
-  const bool bounded_below = std::isfinite(slot.range.lower), bounded_above = std::isfinite(slot.range.upper);
+  const auto narrower = domain.within.find(slot.name);
+  const Range& range = narrower == domain.within.end() ? slot.range : narrower->second;
+  const bool bounded_below = std::isfinite(range.lower), bounded_above = std::isfinite(range.upper);
   if (!bounded_below && !bounded_above) {
     // Divisors stay a tenth of the span away from 0, so that difference quotients are meaningful.
     const double size = random.uniform(0.1 * domain.span, domain.span);
     return domain.positive ? size : std::copysign(size, random.uniform(-1.0, 1.0));
   }
-  const double lower = bounded_below ? slot.range.lower : slot.range.upper - 3.0;
-  const double upper = bounded_above ? slot.range.upper : lower + 3.0;
+  const double lower = bounded_below ? range.lower : range.upper - 3.0;
+  const double upper = bounded_above ? range.upper : lower + 3.0;
   // As far from the ends, which a difference quotient must not pass.
   return random.uniform(lower + 0.1 * (upper - lower), upper - 0.1 * (upper - lower));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,12 @@
 
 namespace flyball::test {
 
-/// What signals are drawn from, as the function's domain allows: (-span, span), or (0, span).
+/// What signals are drawn from, as the function's domain allows: (-span, span), or (0, span). Slots named in
+/// `within` are drawn from there, to keep others away from a singular point.
 struct Domain {
   double span = 2.0;
   bool positive = false;
+  std::map<std::string, Range> within = {};
 };
 
 /// A structure of a block type that the contracts are checked on.

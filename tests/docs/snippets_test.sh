@@ -11,11 +11,13 @@
 set -euo pipefail
 export LC_ALL=C.UTF-8
 bin=$(dirname -- "$(realpath -- "$1")")
-page=$2
+page=$(realpath -- "$2")
 work=$(mktemp -d "${TMPDIR:-/tmp}/a reader's folder.XXXXXX")
 steps=$(mktemp -d)
 trap 'rm -rf -- "$work" "$steps"' EXIT
 cd -- "$work"
+root=$(dirname -- "$page")
+while [[ ! -e $root/CMakePresets.json ]]; do root=$(dirname -- "$root"); done
 
 fail() {
   echo "$page:$line: $*"
@@ -87,6 +89,8 @@ awk -v folder="$steps" '
   inside { print >file; next }
   /^```/ { inside = 1; file = sprintf("%s/block-%03d", folder, ++n); print NR "\n" substr($0, 4) >file }' "$page"
 
+# Pages on shipped models are read in the folder of the project.
+if [[ $page == */docs/robots/* ]]; then ln -s -- "$root/models" "$root/studies" .; fi
 before=none
 for step in "$steps"/block-*; do
   { read -r line; read -r language options || true; } <"$step"

@@ -213,10 +213,10 @@ sum   = { type = "Sum", signs = "+++" }
 wires = ["wheel -> robot.speed.right", "robot.pose.theta -> sum.u1", "robot.echo.left -> turns -> sum.u2", "robot.gain_used -> sum.u3"]
 log = ["robot.pose", "robot.drive.v", "robot.echo.right", "sum"]
 )toml");
-  CHECK(names(d) == Names{"wheel", "robot.speed", "robot.gain", "robot.drive", "turns", "sum"});
+  CHECK(names(d) == Names{"wheel", "robot.speed.left", "robot.gain", "robot.drive", "turns", "sum"});
   CHECK(source(d, "robot.drive", "right") == "wheel.y");
-  CHECK(source(d, "robot.drive", "left") == "robot.speed.y");
-  CHECK(source(d, "turns", "u") == "robot.speed.y");
+  CHECK(source(d, "robot.drive", "left") == "robot.speed.left.y");
+  CHECK(source(d, "turns", "u") == "robot.speed.left.y");
   CHECK(source(d, "sum", "u3") == "robot.gain.y");
   CHECK(logged(d) == Names{"robot.pose.x", "robot.pose.y", "robot.pose.theta", "robot.drive.v",
                            "robot.echo.right", "sum"});

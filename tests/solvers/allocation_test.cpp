@@ -20,12 +20,12 @@ class Oscillator final : public System<double> {
   void jacobian(double, const double*, double* values) override {
     for (int k = 0; k < 4; ++k) values[k] = by_columns_[k];
   }
-  const std::vector<double>* linear_part() const override { return &by_rows_; }
+  const LinearRates* linear_rates() override { return &linear_; }
 
  private:
   Sparsity pattern_{2, {0, 2, 4}, {0, 1, 0, 1}};
   std::vector<double> by_columns_{0.0, -1.0, 1.0, 0.0};
-  std::vector<double> by_rows_{0.0, 1.0, -1.0, 0.0};
+  LinearRates linear_{.matrix = {0.0, 1.0, -1.0, 0.0}, .inputs = {}, .offset = {0.0, 0.0}, .version = 1};
 };
 
 }  // namespace

@@ -139,7 +139,6 @@ TEST_CASE("Fit: the parameters of fifteen models are recovered from records of t
       // What the issue of fits promises; the records have 1e-12, the model's runs 1e-10.
       CHECK(std::fabs(p.value / model_value(c.plan(), p.name) - 1.0) < 1e-6);
     }
-    WARN(r.model << ": " << result.simulations << " sims, cost " << result.cost << " " << result.reason);
   }
 }
 
@@ -167,7 +166,6 @@ TEST_CASE("Fit: exact gradients of these models agree with differences") {
       }
       INFO(r.model << " by " << r.parameters[p]);
       CHECK(error <= 1e-6 * size);
-      WARN(r.model << " by " << r.parameters[p] << " " << error / size);
     }
   }
 }

@@ -74,7 +74,7 @@ bool same_points(const ParetoResult& a, const ParetoResult& b) {
 }  // namespace
 
 TEST_CASE("Each algorithm finds the front of Schaffer's problem") {
-  for (const std::string algorithm : {"nsga2", "nspso", "moead"}) {
+  for (const std::string algorithm : {"nsga2", "nspso", "moead", "mopso"}) {
     INFO(algorithm);
     const Study study = study_of(algorithm);
     const ParetoResult result = front_of(study);

@@ -1,4 +1,5 @@
 // What a study file says, as the rest of the program sees it.
+#include "studies/file.h"
 #include "tests/studies/study_text.h"
 
 using namespace flyball;
@@ -141,4 +142,21 @@ TEST_CASE("a file with a section [study] is a study") {
   CHECK(is_study("study.model = \"m.toml\""));
   CHECK_FALSE(is_study("flyball = 1\n[blocks]\nstudy = { type = \"Constant\" }\n"));
   CHECK_FALSE(is_study("[study"));
+}
+
+TEST_CASE("shipped studies are in order") {
+  const auto folder = std::filesystem::path(source_dir()) / "studies";
+  int studies = 0;
+  for (const auto& domain : std::filesystem::directory_iterator(folder)) {
+    if (!domain.is_directory()) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(domain)) {
+      if (entry.path().extension() != ".toml") continue;
+      Diagnostics diagnostics(entry.path().string());
+      CHECK(read_study(read_file(entry.path()), diagnostics).has_value());
+      for (const Diagnostic& diagnostic : diagnostics.sorted()) UNSCOPED_INFO(to_string(diagnostic));
+      CHECK_FALSE(diagnostics.failed());
+      ++studies;
+    }
+  }
+  CHECK(studies >= 6);
 }

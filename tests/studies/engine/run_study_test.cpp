@@ -5,6 +5,7 @@
 #include "studies/engine/slurm.h"
 #include "studies/engine/write_study.h"
 #include "studies/file.h"
+#include "studies/shell.h"
 #include "tests/catch.h"
 #include "tests/studies/engine/small_studies.h"
 #include "tests/studies/temporary_folder.h"
