@@ -4,15 +4,25 @@
 
 namespace flyball {
 
-std::uint64_t fnv1a(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325;
+void Fingerprint::add(std::string_view bytes) {
   for (const char byte : bytes) {
-    hash ^= static_cast<unsigned char>(byte);
-    hash *= 0x00000100000001b3;
+    hash_ ^= static_cast<unsigned char>(byte);
+    hash_ *= 0x00000100000001b3;
   }
-  return hash;
 }
 
-std::string fingerprint(std::string_view bytes) { return fmt::format("fnv1a64:{:016x}", fnv1a(bytes)); }
+std::string Fingerprint::text() const { return fmt::format("fnv1a64:{:016x}", hash_); }
+
+std::uint64_t fnv1a(std::string_view bytes) {
+  Fingerprint whole;
+  whole.add(bytes);
+  return whole.hash();
+}
+
+std::string fingerprint(std::string_view bytes) {
+  Fingerprint whole;
+  whole.add(bytes);
+  return whole.text();
+}
 
 }  // namespace flyball

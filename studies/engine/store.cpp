@@ -67,7 +67,8 @@ class Store::Database {
  public:
   Database(const fs::path& file, Mode mode, const StoreColumns& wanted) : file_(file), mode_(mode) {
     if (mode == Mode::write) lock_.emplace(fs::path(file).replace_extension("lock"));
-    const int flags = mode == Mode::write ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY;
+    // To read what a killed process left takes writing, too: its log is gone through first.
+    const int flags = SQLITE_OPEN_READWRITE | (mode == Mode::write ? SQLITE_OPEN_CREATE : 0);
     const int status = sqlite3_open_v2(file.c_str(), &handle_, flags | SQLITE_OPEN_NOMUTEX, nullptr);
     try {
       check(status);
@@ -107,6 +108,7 @@ class Store::Database {
     }
     /// Whether there is a row.
     bool step() {
+      errno = 0;
       const int status = sqlite3_step(statement_);
       if (status != SQLITE_ROW && status != SQLITE_DONE) database_.check(status);
       return status == SQLITE_ROW;
@@ -163,6 +165,7 @@ class Store::Database {
   void settle() const {
     run("PRAGMA wal_checkpoint(TRUNCATE)");
     sqlite3_busy_timeout(handle_, 100);
+    errno = 0;
     const int status = sqlite3_exec(handle_, "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
     sqlite3_busy_timeout(handle_, patience);
     if ((status & 0xff) != SQLITE_BUSY && (status & 0xff) != SQLITE_LOCKED) check(status);
@@ -175,7 +178,8 @@ class Store::Database {
     if (code == SQLITE_NOMEM || handle_ == nullptr) throw std::bad_alloc();
     if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT)
       throw FileError(file_, "is not, or no longer, the store of a study; a study begins anew without it", 0);
-    const int error = sqlite3_system_errno(handle_);
+    // SQLite does not keep the number of an error that comes up while it commits.
+    const int error = errno != 0 ? errno : sqlite3_system_errno(handle_);
     const bool of_system = code == SQLITE_IOERR || code == SQLITE_CANTOPEN;
     const std::string what = mode_ == Mode::write ? "cannot be written" : "cannot be read";
     if (code == SQLITE_FULL) throw OutputError(file_, what, ENOSPC);

@@ -1,5 +1,7 @@
 #include "studies/engine/study_metadata.h"
 
+#include <cerrno>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "blocks/hash.h"
@@ -17,6 +19,17 @@ using Json = nlohmann::ordered_json;
 std::string text_of(const Json& json) {
   // A path need not be UTF-8, JSON must be.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+/// Of a file that may be larger than memory should be.
+std::string file_fingerprint(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  Fingerprint fingerprint;
+  std::vector<char> piece(1 << 16);
+  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0)
+    fingerprint.add({piece.data(), static_cast<std::size_t>(file.gcount())});
+  if (!file.eof()) throw FileError(path, "cannot be read", errno);
+  return fingerprint.text();
 }
 
 Json models_of(const Study& study) {
@@ -78,7 +91,7 @@ std::string study_json(const StudyData& data, const std::vector<Choice>& cases,
   }
   for (const Version& library : library_versions()) json["libraries"][library.name] = library.number;
   json["files"] = Json::object();
-  for (const auto& file : files) json["files"][file.filename().string()] = fingerprint(read_file(file));
+  for (const auto& file : files) json["files"][file.filename().string()] = file_fingerprint(file);
   return text_of(json);
 }
 

@@ -86,7 +86,7 @@ says err "broken.toml:"
 is_missing broken-results
 
 # 4: all runs fail; each is a row
-root_model >root.toml
+root_model | sed 's|sqrt(1 - u)|sqrt(1 - u/(1 s))|' >root.toml
 printf 'flyball = 1\n[study]\nmodel = "root.toml"\n[metrics]\nlast = "final(x)"\n' >failing.toml
 expect 4 study failing.toml --quiet
 says err "warning: 1 of 1 run failed"

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <limits>
 
+#include "blocks/hash.h"
 #include "studies/file.h"
 #include "tests/catch.h"
 #include "tests/studies/temporary_folder.h"
@@ -86,6 +87,13 @@ TEST_CASE("One process writes a store, others read it meanwhile") {
   CHECK_THROWS_WITH(Store(file, Store::Mode::write, columns),
                     (folder / "study.lock").string() + ": another process works on this study");
   CHECK(all(Store(file, Store::Mode::read)).size() == 1);
+}
+
+TEST_CASE("A hash of pieces is that of the whole") {
+  Fingerprint pieces;
+  for (const char* piece : {"a store ", "", "of a study"}) pieces.add(piece);
+  CHECK(pieces.text() == fingerprint("a store of a study"));
+  CHECK(fingerprint("a") == "fnv1a64:af63dc4c8601ec8c");  // of the test vectors of RFC 9923
 }
 
 TEST_CASE("A file that is no store is left as it is") {
