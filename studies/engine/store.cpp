@@ -177,7 +177,7 @@ class Store::Database {
     const int code = status & 0xff;
     if (code == SQLITE_NOMEM || handle_ == nullptr) throw std::bad_alloc();
     if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT)
-      throw FileError(file_, "is not, or no longer, the store of a study; a study begins anew without it", 0);
+      throw FileError(file_, "cannot be read as the store of a study; a study begins anew without it", 0);
     // SQLite does not keep the number of an error that comes up while it commits.
     const int error = errno != 0 ? errno : sqlite3_system_errno(handle_);
     const bool of_system = code == SQLITE_IOERR || code == SQLITE_CANTOPEN;

@@ -73,8 +73,9 @@ def problems(study, result, number, whole):
         yield f"status {result.returncode}"
     if result.returncode == 0 and study.results() != whole:
         yield "success, and not all is there"
-    if result.returncode == 5 and os.strerror(number) not in result.stderr:
-        yield "the reason is not named"
+    # SQLite keeps the system's reason of some failures to itself; then it names the file.
+    if result.returncode == 5 and os.strerror(number) not in result.stderr and "study.sqlite: cannot" not in result.stderr:
+        yield f"neither the reason nor the store is named: {result.stderr}"
     for name, content in study.results().items():
         if content != whole[name]:
             yield f"{name} is not whole"
