@@ -127,9 +127,10 @@ TEST_CASE("RoadmapPlanner says why there is no path") {
   const Keys closed = with(scene, "polygons", Table{{0.0, 0.8, 0.9, 0.8, 0.9, 0.85, 0.0, 0.85}});
   CHECK(refusal_of(with(closed, "samples", 50.0)) ==
         Words{": found no path from start to goal with 400 samples"});
-  CHECK(refusal_of(with(with(with(scene, "discs", Table{}), "polygons",
-                             Table{{0.0, 0.8, 0.7, 0.8, 0.7, 0.85, 0.0, 0.85}}),
-                        "waypoints", 1.0)) == Words{"waypoints: too few waypoints for the corners of the path: 1"});
+  CHECK(
+      refusal_of(with(
+          with(with(scene, "discs", Table{}), "polygons", Table{{0.0, 0.8, 0.7, 0.8, 0.7, 0.85, 0.0, 0.85}}),
+          "waypoints", 1.0)) == Words{"waypoints: too few waypoints for the corners of the path: 1"});
   CHECK(refusal_of(with(scene, "discs", Table{{0.3, 0.6}})) == Words{"discs: expected 3 lengths"});
   CHECK(refusal_of(with(scene, "polygons", Table{{0.3, 0.6, 0.4, 0.6}})) ==
         Words{"polygons: expected x and y of at least three corners, found 4 lengths"});
