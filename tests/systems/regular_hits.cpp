@@ -35,7 +35,8 @@ Outcome outcome(const Model& model, LogOptions log, Finish&& finish) {
 }
 
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+  if (a.size() != b.size()) return false;
+  return a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 /// Compares a whole run with one that is advanced step by step. Returns how many hits were taken the short
