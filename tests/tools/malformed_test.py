@@ -20,7 +20,8 @@ DONE, MODEL_ERROR, INPUT_OUTPUT = 0, 3, 5
 # Seconds after which a run counts as one without an end.
 PATIENCE = 120
 # The text is held a few times: as it was read, for positions, for the parser. A sanitizer holds on to what was freed.
-MOST_MEMORY = 1_000_000_000
+# A buffer that doubles holds a file of the largest size and a half twice while it grows.
+MOST_MEMORY = 1_600_000_000
 
 failures = 0
 runs = 0
